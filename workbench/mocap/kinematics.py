@@ -1,0 +1,3 @@
+"""Forward kinematics: from joint rotations to joint positions."""
+
+from __future__ import annotations
