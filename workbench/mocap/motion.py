@@ -31,6 +31,11 @@ class Motion:
         moves as well as turns; every other joint rests at its offset.
     name : str
         What to call the clip in messages and figures.
+
+    Raises
+    ------
+    WorkbenchError
+        If a shape does not fit the skeleton or the frame time is not a positive number.
     """
 
     skeleton: Skeleton
@@ -43,16 +48,23 @@ class Motion:
     def __post_init__(self) -> None:
         n_joints = self.skeleton.n_joints
         shape = np.shape(self.rotations)
-        if len(shape) != 4 or shape[1:] != (n_joints, 3, 3):
+        if len(shape) != 4 or shape[0] == 0 or shape[1:] != (n_joints, 3, 3):
             raise WorkbenchError(
-                f"rotations: got shape {shape}, want (n_frames, {n_joints}, 3, 3)"
+                f"rotations: got shape {shape}, want (n_frames, {n_joints}, 3, 3), "
+                "at least one frame"
             )
         if np.shape(self.root_translation) != (shape[0], 3):
             raise WorkbenchError(
                 f"root_translation: got shape {np.shape(self.root_translation)}, "
                 f"want ({shape[0]}, 3)"
             )
-        if not self.frame_time > 0:
+        for joint, translations in self.joint_translations.items():
+            if not 0 < joint < n_joints or np.shape(translations) != (shape[0], 3):
+                raise WorkbenchError(
+                    f"joint_translations: got shape {np.shape(translations)} for joint {joint}, "
+                    f"want ({shape[0]}, 3) for a joint from 1 to {n_joints - 1}"
+                )
+        if not 0 < self.frame_time < np.inf:
             raise WorkbenchError(f"frame_time: got {self.frame_time}, want seconds above 0")
 
     def __len__(self) -> int:

@@ -126,5 +126,3 @@ class Skeleton:
             and np.allclose(self.offsets, other.offsets)
             and np.allclose(self.path_weights, other.path_weights)
         )
-
-

@@ -1,0 +1,207 @@
+"""Euler angles of a motion's joints, channel by channel as motion files hold them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from workbench.errors import WorkbenchError
+from workbench.kernels import compiled
+from workbench.mocap.motion import Motion
+from workbench.mocap.rotations import (
+    euler_from_rotations,
+    geodesic_angles,
+    rotations_from_euler,
+)
+from workbench.mocap.skeleton import Skeleton
+
+# A rotation that leaves its joint's channels by more than this cannot be meant by rounding.
+_TOLERANCE = np.radians(1e-6)
+
+
+def rotation_columns(skeleton: Skeleton) -> list[slice]:
+    """Locate each joint's columns in an array of all rotation channels.
+
+    Returns
+    -------
+    list of slice
+        One per joint, empty for a joint without rotation channels.
+    """
+    counts = [len(skeleton.rotation_order(joint)) for joint in range(skeleton.n_joints)]
+    ends = np.cumsum(counts).tolist()
+    return [slice(end - count, end) for end, count in zip(ends, counts, strict=True)]
+
+
+@compiled
+def _compose(axes, joint_starts, radians, rotations):  # type: ignore[no-untyped-def]  # compiled
+    """Write R_first · R_second · … of each joint; ``axes`` holds 0, 1, 2 per column."""
+    sines, cosines = np.sin(radians), np.cos(radians)
+    for frame in range(rotations.shape[0]):
+        for joint in range(rotations.shape[1]):
+            m = rotations[frame, joint]
+            for i in range(3):
+                for j in range(3):
+                    m[i, j] = 1.0 if i == j else 0.0
+            for column in range(joint_starts[joint], joint_starts[joint + 1]):
+                c, s = cosines[frame, column], sines[frame, column]
+                j = (axes[column] + 1) % 3
+                k = (axes[column] + 2) % 3
+                for i in range(3):
+                    p, q = m[i, j], m[i, k]
+                    m[i, j], m[i, k] = c * p + s * q, c * q - s * p
+
+
+def rotations_from_channels(skeleton: Skeleton, degrees: ArrayLike) -> NDArray[np.float64]:
+    """Compose joint rotations from their channels' angles.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        The joints; each has its own rotation channels, none to three, in its own order.
+    degrees : array-like of shape (n_frames, n_rotation_channels)
+        Angles in degrees, in file order.
+
+    Returns
+    -------
+    ndarray of shape (n_frames, n_joints, 3, 3)
+
+    Raises
+    ------
+    WorkbenchError
+        If the number of columns is not that of the skeleton's rotation channels.
+
+    Examples
+    --------
+    >>> hinge = Skeleton(("knee",), [-1], [[0, 0, 0]], (), (("Zrotation",),))
+    >>> rotations_from_channels(hinge, [[90.0]]).round(9)[0, 0, 0]
+    array([ 0., -1.,  0.])
+    """
+    degrees = np.asarray(degrees, dtype=np.float64)
+    orders = [skeleton.rotation_order(joint) for joint in range(skeleton.n_joints)]
+    axes = np.array(["XYZ".index(axis) for order in orders for axis in order], dtype=np.intp)
+    if degrees.ndim != 2 or degrees.shape[1] != len(axes):
+        raise WorkbenchError(f"degrees: got shape {degrees.shape}, want (n_frames, {len(axes)})")
+    starts = np.cumsum([0, *(len(order) for order in orders)], dtype=np.intp)
+    rotations = np.empty((len(degrees), skeleton.n_joints, 3, 3))
+    _compose(axes, starts, np.radians(degrees), rotations)
+    return rotations
+
+
+def channels_from_rotations(skeleton: Skeleton, rotations: ArrayLike) -> NDArray[np.float64]:
+    """Decompose joint rotations into their channels' angles.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        The joints.
+    rotations : array-like of shape (n_frames, n_joints, 3, 3)
+        Rotation of each joint relative to its parent.
+
+    Returns
+    -------
+    ndarray of shape (n_frames, n_rotation_channels)
+        Angles in degrees within [-180, 180], in file order.
+
+    Raises
+    ------
+    WorkbenchError
+        If a joint has a rotation that its channels cannot express, for instance one about
+        X where there is only a Z channel.
+    """
+    rotations = np.asarray(rotations, dtype=np.float64)
+    n_joints = skeleton.n_joints
+    if rotations.shape != (len(rotations), n_joints, 3, 3):
+        raise WorkbenchError(
+            f"rotations: got shape {rotations.shape}, want (n_frames, {n_joints}, 3, 3)"
+        )
+    columns = []
+    for joint in range(n_joints):
+        order = skeleton.rotation_order(joint)
+        angles = _decompose(order, rotations[:, joint])
+        missed = geodesic_angles(rotations_from_euler(order, angles), rotations[:, joint])
+        # Written so that a NaN is refused too.
+        if len(missed) and not missed.max() <= _TOLERANCE:
+            frame = int(np.argmax(np.where(np.isnan(missed), np.inf, missed)))
+            raise WorkbenchError(
+                f"rotations: joint {joint} ({skeleton.names[joint]}) has in frame {frame} a "
+                f"rotation off by {np.degrees(missed[frame]):.3g} degrees from what its channels "
+                f"({order or 'none'}) can express"
+            )
+        columns.append(angles)
+    return np.concatenate(columns, axis=1)
+
+
+def motion_to_euler(motion: Motion, *, unwrap: bool = False) -> NDArray[np.float64]:
+    """Compute the Euler angles of a motion, for methods that work on angle curves.
+
+    Parameters
+    ----------
+    motion : Motion
+        The motion.
+    unwrap : bool, default False
+        Keep the curves continuous: in each frame take, of all angles that stand for the
+        same rotation, those nearest to the frame before. Otherwise a curve jumps by a full
+        turn at ±180 degrees, and by half turns where a joint passes its gimbal lock.
+
+    Returns
+    -------
+    ndarray of shape (n_frames, n_rotation_channels)
+        Angles in degrees, in file order; :func:`rotations_from_channels` is the way back.
+    """
+    degrees = channels_from_rotations(motion.skeleton, motion.rotations)
+    if unwrap:
+        starts = np.array(
+            [s.start for s in rotation_columns(motion.skeleton) if s.stop - s.start == 3],
+            dtype=np.intp,
+        )
+        _follow(degrees, starts)
+    return degrees
+
+
+@compiled
+def _follow(degrees, triples):  # type: ignore[no-untyped-def]  # compiled
+    """Replace angles by the equivalent ones nearest to the frame before, in place.
+
+    Three angles (a, b, c) about different axes have one other representative,
+    (a + 180, 180 - b, c + 180), each up to full turns; ``triples`` lists their first columns.
+    """
+    for frame in range(1, degrees.shape[0]):
+        row, before = degrees[frame], degrees[frame - 1]
+        for column in range(degrees.shape[1]):
+            row[column] += 360.0 * np.round((before[column] - row[column]) / 360.0)
+        for start in triples:
+            here, there = 0.0, 0.0
+            other = np.empty(3)
+            for i in range(3):
+                angle, last = row[start + i], before[start + i]
+                flipped = 180.0 - angle if i == 1 else 180.0 + angle
+                other[i] = flipped + 360.0 * np.round((last - flipped) / 360.0)
+                here += abs(angle - last)
+                there += abs(other[i] - last)
+            if there < here:
+                for i in range(3):
+                    row[start + i] = other[i]
+
+
+def _decompose(order: str, rotations: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Find the angles of (n_frames, 3, 3) rotations about one to three different axes."""
+    if len(order) == 3:
+        return euler_from_rotations(order, rotations)
+    axes = ["XYZ".index(axis) for axis in order]
+    angles = np.empty((len(rotations), len(order)))
+    if len(order) == 1:
+        j, k = (axes[0] + 1) % 3, (axes[0] + 2) % 3
+        angles[:, 0] = np.arctan2(
+            rotations[:, k, j] - rotations[:, j, k], rotations[:, j, j] + rotations[:, k, k]
+        )
+    elif len(order) == 2:
+        # The first rotation alone moves the second axis, so column R·e_second tells its
+        # angle; likewise row e_firstᵀ·R tells the second, over the whole circle.
+        first, second = axes
+        j, k = (first + 1) % 3, (first + 2) % 3
+        turned, sign = (k, 1.0) if second == j else (j, -1.0)
+        angles[:, 0] = np.arctan2(sign * rotations[:, turned, second], rotations[:, second, second])
+        j, k = (second + 1) % 3, (second + 2) % 3
+        turned, sign = (k, -1.0) if first == j else (j, 1.0)
+        angles[:, 1] = np.arctan2(sign * rotations[:, first, turned], rotations[:, first, first])
+    return np.degrees(angles)

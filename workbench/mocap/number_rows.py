@@ -1,0 +1,175 @@
+"""Read rows of decimal numbers quickly, and find the fault where they are not."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.errors import MotionFormatError
+from workbench.kernels import compiled
+from workbench.mocap.textfile import lines_of, parse_number, quoted
+
+_DONE, _HARD, _FAULT = 0, 1, 2
+_POWERS = 10.0 ** np.arange(23)  # every one of them is exact
+
+
+@compiled
+def _scan(  # type: ignore[no-untyped-def]  # compiled
+    data, position, values, index, n_columns, mid_line, powers
+):
+    """Fill ``values`` from ``index`` on with the numbers from ``position`` on.
+
+    Up to 19 digits are gathered in an integer. Where it is at most 2**53 and the power of
+    ten is exact, one multiplication or division gives the correctly rounded number
+    (Clinger 1990); other numbers are handed back as hard.
+
+    Returns the position, the index and why it stopped there.
+    """
+    size = len(data)
+    while True:
+        while position < size and (data[position] == 32 or data[position] == 9):
+            position += 1
+        if position == size or data[position] == 10 or data[position] == 13:
+            if index % n_columns != 0:
+                return position, index, 2
+            if position == size:
+                return position, index, 0
+            mid_line = False
+            position += 1
+            continue
+        # A row ends with its line, and there are as many rows as there is room for.
+        if (mid_line and index % n_columns == 0) or index == len(values):
+            return position, index, 2
+        start = position
+        negative = data[position] == 45
+        if negative or data[position] == 43:
+            position += 1
+        mantissa, digits, exponent, any_digit = np.int64(0), 0, 0, False
+        while position < size and 48 <= data[position] <= 57:
+            any_digit = True
+            if digits < 18:
+                mantissa = mantissa * 10 + (data[position] - 48)
+            digits += 1 if mantissa > 0 else 0
+            position += 1
+        if position < size and data[position] == 46:
+            position += 1
+            while position < size and 48 <= data[position] <= 57:
+                any_digit = True
+                if digits < 18:
+                    mantissa = mantissa * 10 + (data[position] - 48)
+                    exponent -= 1
+                digits += 1 if mantissa > 0 else 0
+                position += 1
+        if not any_digit:
+            return start, index, 2
+        if position < size and (data[position] == 101 or data[position] == 69):
+            position += 1
+            downwards = position < size and data[position] == 45
+            if downwards or (position < size and data[position] == 43):
+                position += 1
+            if position == size or not 48 <= data[position] <= 57:
+                return start, index, 2
+            written = 0
+            while position < size and 48 <= data[position] <= 57:
+                written = min(written * 10 + (data[position] - 48), 10000)
+                position += 1
+            exponent += -written if downwards else written
+        if position < size:
+            after = data[position]
+            if after != 32 and after != 9 and after != 10 and after != 13:
+                return start, index, 2
+        if digits > 18 or mantissa > 9007199254740992 or exponent < -22 or exponent > 22:
+            return start, index, 1
+        value = float(mantissa)
+        value = value / powers[-exponent] if exponent < 0 else value * powers[exponent]
+        values[index] = -value if negative else value
+        index += 1
+        mid_line = True
+
+
+def read_number_rows(
+    path: str | Path, data: bytes, start: int, line: int, shape: tuple[int, int], announced: str
+) -> NDArray[np.float64]:
+    """Read the rest of a file as rows of numbers, one row a line, blank lines aside.
+
+    Numbers are read correctly rounded, as Python reads them.
+
+    Parameters
+    ----------
+    path : path-like
+        The file, for messages.
+    data : bytes
+        Its content.
+    start : int
+        Offset of the first row.
+    line : int
+        Number of the line before the first row.
+    shape : tuple of int
+        Expected numbers of rows and of numbers in each.
+    announced : str
+        Where the file tells the number of rows, as used in messages.
+
+    Returns
+    -------
+    ndarray of that shape
+
+    Raises
+    ------
+    MotionFormatError
+        If a row has too few or too many numbers, or there are too few or too many rows, or
+        something is not a finite decimal number.
+    """
+    n_rows, n_columns = shape
+    # A number and the blank after it take two bytes. Asking for the memory first would let
+    # one wrong digit in the number of rows exhaust the machine.
+    if n_rows * n_columns > (len(data) - start + 1) // 2:
+        raise _fault(path, data, start, line, shape, announced)
+    values = np.empty(n_rows * n_columns)
+    view = np.frombuffer(data, dtype=np.uint8)
+    position, index, state = start, 0, _HARD
+    while True:
+        position, index, state = _scan(
+            view, position, values, index, n_columns, index > 0 and state == _HARD, _POWERS
+        )
+        if state != _HARD:
+            break
+        token = data[position : position + 4096].split(None, 1)[0]
+        number = parse_number(token.decode("ascii"))
+        if number is None:
+            state = _FAULT
+            break
+        values[index] = number
+        index += 1
+        position += len(token)
+    if state == _FAULT or index != len(values):
+        raise _fault(path, data, start, line, shape, announced)
+    return values.reshape(shape)
+
+
+def _fault(
+    path: str | Path, data: bytes, start: int, line: int, shape: tuple[int, int], announced: str
+) -> MotionFormatError:
+    """Describe the first fault of rows that cannot be read."""
+    n_rows, n_columns = shape
+    rows = 0
+    last_line = line
+    for number, (text, _) in enumerate(lines_of(data, start), start=line + 1):
+        if not text:
+            continue
+        last_line = number
+        if rows == n_rows:
+            return MotionFormatError(
+                path, number, f"more than {n_rows} rows", f"{n_rows} rows as {announced} says"
+            )
+        words = text.split()
+        for column, word in enumerate(words[:n_columns], start=1):
+            if parse_number(word) is None:
+                return MotionFormatError(
+                    path, number, f"{quoted(word)} in column {column}", "a finite decimal number"
+                )
+        if len(words) != n_columns:
+            return MotionFormatError(path, number, f"{len(words)} numbers", f"{n_columns} in a row")
+        rows += 1
+    return MotionFormatError(path, last_line, f"{rows} rows", f"{n_rows} rows as {announced} says")
