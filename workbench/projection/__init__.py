@@ -1,0 +1,108 @@
+"""Projectors: from samples to an embedding in two or three dimensions.
+
+A projector is a scikit-learn transformer. One that has a ``metric`` parameter works on
+distances, and gets the precomputed distances of the space where those are not Euclidean.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.errors import WorkbenchError
+from workbench.registry import Registry
+from workbench.spaces import Space, VectorSpace
+from workbench.validation import as_embedding
+
+projectors = Registry(
+    "projector",
+    {
+        "pca": "workbench.projection.pca:PCA",
+        "mds": "workbench.projection.mds:MDS",
+        "isomap": "workbench.projection.isomap:Isomap",
+        "lle": "workbench.projection.lle:LLE",
+        "tsne": "workbench.projection.tsne:TSNE",
+        "umap": "workbench.projection.umap:UMAP",
+    },
+)
+register_projector = projectors.register
+
+
+def project(
+    space: Space, projector: Any, *, random_state: int | None = None
+) -> NDArray[np.float64]:
+    """Project the samples of a space and scale the result to the unit square.
+
+    Parameters
+    ----------
+    space : Space
+        The samples.
+    projector : str or scikit-learn transformer
+        A registered name or an estimator with ``fit_transform``; it is cloned, not changed.
+    random_state : int, optional
+        Seed for a projector that has that parameter and leaves it open.
+
+    Returns
+    -------
+    ndarray of shape (n_samples, n_components)
+        See :func:`scale_to_unit_square`.
+
+    Raises
+    ------
+    WorkbenchError
+        If the name is unknown or the result is no embedding.
+
+    Examples
+    --------
+    >>> from workbench.spaces import VectorSpace
+    >>> project(VectorSpace([[0.0, 0.0], [4.0, 0.0], [2.0, 1.0]]), "pca").max()
+    np.float64(1.0)
+    """
+    from sklearn.base import clone
+
+    if isinstance(projector, str):
+        estimator = projectors.create(projector)
+    else:
+        estimator = clone(projector)
+    parameters = estimator.get_params(deep=False)
+    if parameters.get("random_state", random_state) is None:
+        estimator.set_params(random_state=random_state)
+    samples = space.features
+    if "metric" in parameters and not isinstance(space, VectorSpace):
+        estimator.set_params(metric="precomputed")
+        samples = space.distances
+    name = projector if isinstance(projector, str) else type(projector).__name__
+    embedding = as_embedding(
+        estimator.fit_transform(samples), f"embedding by {name!r}", len(space)
+    )
+    return scale_to_unit_square(embedding)
+
+
+def scale_to_unit_square(embedding: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Shift and scale an embedding into the unit square, or cube, keeping its shape.
+
+    All axes are scaled alike, by the larger extent, because distances in the plane mean
+    something (Costa 2018 normalises before optimizing).
+
+    Parameters
+    ----------
+    embedding : ndarray of shape (n_samples, n_components)
+        Positions.
+
+    Returns
+    -------
+    ndarray of shape (n_samples, n_components)
+        Positions from 0; the larger extent is 1.
+
+    Raises
+    ------
+    WorkbenchError
+        If all points coincide.
+    """
+    low = embedding.min(axis=0)
+    extent = float(np.ptp(embedding, axis=0).max())
+    if not extent > 0:
+        raise WorkbenchError("embedding: got one place for all samples, want different places")
+    return (embedding - low) / extent

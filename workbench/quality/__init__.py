@@ -1,0 +1,1 @@
+"""Quality: how well an embedding keeps distances and neighbourhoods, and rebuilds samples."""

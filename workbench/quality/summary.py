@@ -1,0 +1,66 @@
+"""The usual quality values of an embedding, in one place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from numpy.typing import ArrayLike
+
+from workbench.quality.neighborhoods import default_neighborhood_size, neighborhood_quality
+from workbench.quality.stress import scale_normalized_stress, stress
+
+
+@dataclass(frozen=True)
+class EmbeddingQuality:
+    """Quality of an embedding.
+
+    Attributes
+    ----------
+    stress : float
+        Costa 2018, Eq. 4.1; depends on the embedding's scale. Lower is better.
+    scale_normalized_stress : float
+        At the embedding's best scale. Lower is better.
+    trustworthiness, continuity, neighborhood_preservation : float
+        At neighbourhood size ``k``. Higher is better.
+    k : int
+        min(10, (n_samples − 1) // 2).
+    """
+
+    stress: float
+    scale_normalized_stress: float
+    trustworthiness: float
+    continuity: float
+    neighborhood_preservation: float
+    k: int
+
+
+def embedding_quality(distances: ArrayLike, embedding: ArrayLike) -> EmbeddingQuality:
+    """Measure an embedding by all usual values.
+
+    Parameters
+    ----------
+    distances : array-like of shape (n_samples, n_samples)
+        Distances in the data.
+    embedding : array-like of shape (n_samples, n_dimensions)
+        Positions.
+
+    Returns
+    -------
+    EmbeddingQuality
+
+    Raises
+    ------
+    WorkbenchError
+        If the shapes do not fit or all points coincide.
+    """
+    plain = stress(distances, embedding)
+    k = default_neighborhood_size(len(embedding))  # type: ignore[arg-type]  # checked by stress
+    near = neighborhood_quality(distances, embedding, k)
+    return EmbeddingQuality(
+        stress=plain,
+        scale_normalized_stress=scale_normalized_stress(distances, embedding),
+        trustworthiness=float(near.trustworthiness[0]),
+        continuity=float(near.continuity[0]),
+        neighborhood_preservation=float(near.preservation[0]),
+        k=k,
+    )

@@ -1,0 +1,288 @@
+"""Spaces of samples: what every step of the pipeline works on.
+
+A space knows its samples, how far apart they are, how wrong a reconstruction of one is,
+and which samples are next to each other. Motion capture and tables differ in nothing
+else, so all other steps serve both.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from workbench.errors import WorkbenchError
+from workbench.mocap.motion import Motion
+from workbench.validation import MIN_SAMPLES, finite
+
+
+class Space(ABC):
+    """The base of all spaces.
+
+    Attributes
+    ----------
+    name : str
+        What to call the data in messages and figures.
+    samples : ndarray of shape (n_samples, ...)
+        The samples themselves.
+    """
+
+    name: str
+    samples: NDArray[np.float64]
+
+    def __len__(self) -> int:
+        return len(self.samples)
+
+    @property
+    @abstractmethod
+    def features(self) -> NDArray[np.float64]:
+        """Samples as vectors, for methods that need coordinates: (n_samples, n_features)."""
+
+    @property
+    @abstractmethod
+    def distances(self) -> NDArray[np.float64]:
+        """Distances between all pairs of samples: (n_samples, n_samples)."""
+
+    @abstractmethod
+    def pair_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+        """Measure the distances between pairs of samples.
+
+        Parameters
+        ----------
+        first, second : array-like of shape (n_pairs,)
+            Indices of samples.
+
+        Returns
+        -------
+        ndarray of shape (n_pairs,)
+        """
+
+    @abstractmethod
+    def errors(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
+        """Measure how far reconstructions are from the samples that they stand for.
+
+        Parameters
+        ----------
+        indices : array-like of shape (n_points,)
+            The sample that each reconstruction stands for; repetitions are allowed.
+        reconstructions : array-like of shape (n_points, ...)
+            Reconstructed samples.
+
+        Returns
+        -------
+        ndarray of shape (n_points,)
+        """
+
+    @property
+    @abstractmethod
+    def neighbors(self) -> NDArray[np.intp]:
+        """Two neighbours of each sample, equal where there is only one: (n_samples, 2)."""
+
+    @abstractmethod
+    def mean_prediction_error(self) -> float:
+        """Mean error of the poorest sensible reconstruction: every sample by the mean."""
+
+
+class VectorSpace(Space):
+    """Rows of a table under the Euclidean distance.
+
+    Parameters
+    ----------
+    values : array-like of shape (n_samples, n_features)
+        The table's numbers.
+    columns : sequence of str, optional
+        Names of the features.
+    labels : array-like of shape (n_samples,), optional
+        A class for each row; never used by a projection, only to colour it.
+    name : str
+        What to call the table.
+    standardize : bool
+        Whether to bring each column to zero mean and unit variance; a constant column
+        becomes 0. It changes every result, so figures and tables say which was used.
+
+    Raises
+    ------
+    WorkbenchError
+        If the table is not 2-D, has fewer than 3 rows or values that are not finite.
+
+    Examples
+    --------
+    >>> space = VectorSpace([[0, 0], [3, 4], [0, 1]])
+    >>> space.pair_distances([0], [1])
+    array([5.])
+    """
+
+    def __init__(
+        self,
+        values: ArrayLike,
+        *,
+        columns: list[str] | tuple[str, ...] | None = None,
+        labels: ArrayLike | None = None,
+        name: str = "",
+        standardize: bool = False,
+    ) -> None:
+        array = np.array(values, dtype=np.float64)
+        if array.ndim != 2 or len(array) < MIN_SAMPLES or array.shape[1] < 1:
+            raise WorkbenchError(
+                f"values: got shape {array.shape}, want at least {MIN_SAMPLES} rows "
+                "and 1 column of numbers"
+            )
+        finite(array, "values")
+        if standardize:
+            spread = array.std(axis=0)
+            array = (array - array.mean(axis=0)) / np.where(spread > 0, spread, 1.0)
+        self.samples = array
+        self.name = name
+        self.standardized = standardize
+        self.columns = tuple(columns) if columns else tuple(f"x{i}" for i in range(array.shape[1]))
+        self.labels: NDArray[Any] | None = None if labels is None else np.asarray(labels)
+        if len(self.columns) != array.shape[1]:
+            raise WorkbenchError(
+                f"columns: got {len(self.columns)} names, want {array.shape[1]}"
+            )
+        if self.labels is not None and self.labels.shape != (len(array),):
+            raise WorkbenchError(f"labels: got shape {self.labels.shape}, want ({len(array)},)")
+
+    @property
+    def features(self) -> NDArray[np.float64]:
+        """The table's numbers: (n_samples, n_features)."""
+        return self.samples
+
+    @cached_property
+    def distances(self) -> NDArray[np.float64]:
+        """Euclidean distances between all rows: (n_samples, n_samples)."""
+        from scipy.spatial.distance import pdist, squareform
+
+        return squareform(pdist(self.samples))
+
+    def pair_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+        """Measure the Euclidean distances between pairs of rows."""
+        return np.linalg.norm(self.samples[first] - self.samples[second], axis=1)
+
+    def errors(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
+        """Measure the Euclidean distances between rows and their reconstructions."""
+        return np.linalg.norm(self.samples[indices] - np.asarray(reconstructions), axis=1)
+
+    @cached_property
+    def neighbors(self) -> NDArray[np.intp]:
+        """The two nearest other rows of each row: (n_samples, 2).
+
+        Rows have no order in time, so these take the place of the previous and the next
+        frame (Costa 2018, section 5.2).
+        """
+        from sklearn.neighbors import NearestNeighbors
+
+        return NearestNeighbors(n_neighbors=2).fit(self.samples).kneighbors(return_distance=False)
+
+    def mean_prediction_error(self) -> float:
+        """Mean Euclidean distance between the rows and their mean."""
+        return float(np.linalg.norm(self.samples - self.samples.mean(axis=0), axis=1).mean())
+
+
+class PoseSpace(Space):
+    """Poses of a motion under D_q, the weighted sum of joint rotation angles.
+
+    Errors are D_q divided by the number of joints, so that their mean over all frames is
+    the error per frame per joint of Costa 2018, chapter 5. The root's rotation counts as a
+    joint; its translation does not count.
+
+    Parameters
+    ----------
+    motion : Motion
+        The clip, at least 3 frames.
+
+    Raises
+    ------
+    WorkbenchError
+        If it is shorter, or its matrices are not rotations.
+    """
+
+    def __init__(self, motion: Motion) -> None:
+        rotations = finite(np.ascontiguousarray(motion.rotations, dtype=np.float64), "rotations")
+        if len(rotations) < MIN_SAMPLES:
+            raise WorkbenchError(
+                f"motion {motion.name!r}: got {len(rotations)} frames, want {MIN_SAMPLES} or more"
+            )
+        skew = np.abs(rotations @ np.swapaxes(rotations, -1, -2) - np.eye(3)).max()
+        if skew > 1e-6 or np.linalg.det(rotations).min() < 0:
+            raise WorkbenchError(
+                f"rotations of {motion.name!r}: got matrices that are {skew:.2g} from orthogonal "
+                "or mirrored, want rotations (see nearest_rotations)"
+            )
+        self.motion = motion
+        self.samples = rotations
+        self.name = motion.name
+        self.labels: NDArray[Any] | None = None
+
+    @property
+    def weights(self) -> NDArray[np.float64]:
+        """Joint weights of D_q, from the clip's own skeleton: (n_joints,)."""
+        return self.motion.skeleton.path_weights
+
+    @property
+    def features(self) -> NDArray[np.float64]:
+        """The nine matrix entries of each joint: (n_frames, 9 · n_joints)."""
+        return self.samples.reshape(len(self), -1)
+
+    @cached_property
+    def distances(self) -> NDArray[np.float64]:
+        """D_q between all frames: (n_frames, n_frames)."""
+        from workbench.mocap.distances import rotation_distance_matrix
+
+        return rotation_distance_matrix(self.samples, self.weights)
+
+    def pair_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+        """Measure D_q between pairs of frames."""
+        from workbench.mocap.distances import rotation_distance_pairs
+
+        return rotation_distance_pairs(self.samples[first], self.samples[second], self.weights)
+
+    def errors(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
+        """Measure D_q per joint between frames and their reconstructions."""
+        from workbench.mocap.distances import rotation_distance_pairs
+
+        poses = np.asarray(reconstructions, dtype=np.float64)
+        return rotation_distance_pairs(self.samples[indices], poses, self.weights) / len(
+            self.weights
+        )
+
+    @cached_property
+    def positions(self) -> NDArray[np.float64]:
+        """World positions of the joints, in file units: (n_frames, n_joints, 3)."""
+        from workbench.mocap.kinematics import joint_positions
+
+        return joint_positions(self.motion)
+
+    @cached_property
+    def position_distances(self) -> NDArray[np.float64]:
+        """D_p between all frames with uniform weights: (n_frames, n_frames)."""
+        from workbench.mocap.distances import position_distance_matrix
+
+        return position_distance_matrix(self.positions, np.ones(len(self.weights)))
+
+    def pair_position_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+        """Measure D_p with uniform weights between pairs of frames."""
+        from workbench.mocap.distances import position_distance_pairs
+
+        return position_distance_pairs(
+            self.positions[first], self.positions[second], np.ones(len(self.weights))
+        )
+
+    @cached_property
+    def neighbors(self) -> NDArray[np.intp]:
+        """The previous and the next frame of each frame: (n_frames, 2)."""
+        frames = np.arange(len(self))
+        pairs = np.stack([frames - 1, frames + 1], axis=1)
+        pairs[0, 0], pairs[-1, 1] = 1, len(self) - 2
+        return pairs
+
+    def mean_prediction_error(self) -> float:
+        """Mean error per frame per joint of the mean pose (nearest rotation to the mean)."""
+        from workbench.mocap.rotations import nearest_rotations
+
+        mean = nearest_rotations(self.samples.mean(axis=0))
+        every = np.broadcast_to(mean, self.samples.shape)
+        return float(self.errors(np.arange(len(self)), every).mean())
