@@ -25,15 +25,20 @@ def _rotation_distance(a, b, weights):  # type: ignore[no-untyped-def]  # compil
     return total
 
 
+@compiled
+def _fill_row(poses, weights, i, result):  # type: ignore[no-untyped-def]  # compiled
+    for j in range(i):
+        result[i, j] = result[j, i] = _rotation_distance(poses[i], poses[j], weights)
+
+
 @compiled_parallel
 def _rotation_distance_matrix(poses, weights, result):  # type: ignore[no-untyped-def]  # compiled
     n = poses.shape[0]
     # Row i is paired with row n-1-i so that every step has the same work.
     for half in prange((n + 1) // 2):
-        for side in range(2):
-            i = half if side == 0 else n - 1 - half
-            for j in range(i):
-                result[i, j] = result[j, i] = _rotation_distance(poses[i], poses[j], weights)
+        row = np.int64(half)
+        _fill_row(poses, weights, row, result)
+        _fill_row(poses, weights, n - 1 - row, result)
 
 
 @compiled_parallel
