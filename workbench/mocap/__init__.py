@@ -10,7 +10,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from workbench.mocap.amc import JointAngles, read_amc, read_asf_amc
+    from workbench.mocap.asf import AcclaimSkeleton, read_asf
     from workbench.mocap.bvh import read_bvh
+    from workbench.mocap.bvh_writer import write_bvh
     from workbench.mocap.channels import (
         channels_from_rotations,
         motion_to_euler,
@@ -24,12 +27,15 @@ if TYPE_CHECKING:
         root_relative_positions,
     )
     from workbench.mocap.motion import Motion
+    from workbench.mocap.reading import read_motion
     from workbench.mocap.resampling import resample
     from workbench.mocap.skeleton import EndSite, Skeleton
     from workbench.mocap.tpose import drop_tpose, has_tpose
 
 __all__ = [
+    "AcclaimSkeleton",
     "EndSite",
+    "JointAngles",
     "Motion",
     "Skeleton",
     "body_positions",
@@ -40,14 +46,22 @@ __all__ = [
     "has_tpose",
     "joint_positions",
     "motion_to_euler",
+    "read_amc",
+    "read_asf",
+    "read_asf_amc",
     "read_bvh",
+    "read_motion",
     "resample",
     "root_relative_positions",
     "rotations_from_channels",
+    "write_bvh",
 ]
 
 _MODULES = {
+    "amc": ("JointAngles", "read_amc", "read_asf_amc"),
+    "asf": ("AcclaimSkeleton", "read_asf"),
     "bvh": ("read_bvh",),
+    "bvh_writer": ("write_bvh",),
     "channels": ("channels_from_rotations", "motion_to_euler", "rotations_from_channels"),
     "kinematics": (
         "body_positions",
@@ -57,6 +71,7 @@ _MODULES = {
         "root_relative_positions",
     ),
     "motion": ("Motion",),
+    "reading": ("read_motion",),
     "resampling": ("resample",),
     "skeleton": ("EndSite", "Skeleton"),
     "tpose": ("drop_tpose", "has_tpose"),

@@ -11,7 +11,7 @@ from workbench.errors import MotionFormatError
 from workbench.kernels import compiled
 from workbench.mocap.textfile import lines_of, parse_number, quoted
 
-_DONE, _HARD, _FAULT = 0, 1, 2
+_DONE, _HARD = 0, 1  # what the scanner returns; anything else is a fault
 _POWERS = 10.0 ** np.arange(23)  # every one of them is exact
 
 
@@ -121,31 +121,45 @@ def read_number_rows(
         If a row has too few or too many numbers, or there are too few or too many rows, or
         something is not a finite decimal number.
     """
+    values = scan_numbers(data, start, shape)
+    if values is None:
+        raise _fault(path, data, start, line, shape, announced)
+    return values
+
+
+def scan_numbers(data: bytes, start: int, shape: tuple[int, int]) -> NDArray[np.float64] | None:
+    """Read rows of numbers, or tell by None that there is a fault somewhere.
+
+    Parameters
+    ----------
+    data : bytes
+        Text with one row a line, blank lines aside.
+    start : int
+        Offset of the first row.
+    shape : tuple of int
+        Expected numbers of rows and of numbers in each.
+
+    Returns
+    -------
+    ndarray of that shape, or None
+    """
     n_rows, n_columns = shape
     # A number and the blank after it take two bytes. Asking for the memory first would let
     # one wrong digit in the number of rows exhaust the machine.
     if n_rows * n_columns > (len(data) - start + 1) // 2:
-        raise _fault(path, data, start, line, shape, announced)
+        return None
     values = np.empty(n_rows * n_columns)
     view = np.frombuffer(data, dtype=np.uint8)
-    position, index, state = start, 0, _HARD
-    while True:
-        position, index, state = _scan(
-            view, position, values, index, n_columns, index > 0 and state == _HARD, _POWERS
-        )
-        if state != _HARD:
-            break
+    position, index, state = _scan(view, start, values, 0, n_columns, False, _POWERS)
+    while state == _HARD:
         token = data[position : position + 4096].split(None, 1)[0]
         number = parse_number(token.decode("ascii"))
         if number is None:
-            state = _FAULT
-            break
+            return None
         values[index] = number
-        index += 1
         position += len(token)
-    if state == _FAULT or index != len(values):
-        raise _fault(path, data, start, line, shape, announced)
-    return values.reshape(shape)
+        position, index, state = _scan(view, position, values, index + 1, n_columns, True, _POWERS)
+    return values.reshape(shape) if state == _DONE and index == len(values) else None
 
 
 def _fault(

@@ -58,7 +58,8 @@ class Skeleton:
     Raises
     ------
     WorkbenchError
-        If the arrays do not fit each other or a parent does not precede its child.
+        If the arrays do not fit each other, a parent does not precede its child, an end
+        site hangs on no joint, or a joint has an unknown channel or one channel twice.
     """
 
     names: tuple[str, ...]
@@ -85,6 +86,18 @@ class Skeleton:
                 f"parents: got {parents.tolist()}, want -1 for joint 0 and an earlier joint "
                 "for every other"
             )
+        for site in self.end_sites:
+            if not 0 <= site.joint < n or np.shape(site.offset) != (3,):
+                raise WorkbenchError(
+                    f"end_sites: got joint {site.joint} and an offset of shape "
+                    f"{np.shape(site.offset)}, want a joint below {n} and (3,)"
+                )
+        known = POSITION_CHANNELS + ROTATION_CHANNELS
+        for name, channels in zip(self.names, self.channels, strict=True):
+            if len(set(channels)) < len(channels) or not set(channels) <= set(known):
+                raise WorkbenchError(
+                    f"channels of joint {name!r}: got {channels}, want each at most once of {known}"
+                )
         object.__setattr__(self, "parents", parents)
         object.__setattr__(self, "offsets", offsets)
 

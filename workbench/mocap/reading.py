@@ -1,0 +1,62 @@
+"""Read a motion whatever its file format."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from workbench.errors import DataError
+from workbench.mocap.amc import read_asf_amc
+from workbench.mocap.bvh import read_bvh
+from workbench.mocap.motion import Motion
+
+
+def read_motion(path: str | Path) -> Motion:
+    """Read a motion file, telling its format by its ending.
+
+    An AMC file needs its skeleton beside it: ``05_09.asf`` or ``05.asf`` for
+    ``05_09.amc``, or the only ASF file in the folder.
+
+    Parameters
+    ----------
+    path : path-like
+        A ``.bvh`` or an ``.amc`` file.
+
+    Returns
+    -------
+    Motion
+
+    Raises
+    ------
+    DataError
+        If the file is missing, of another kind, or an AMC file without a skeleton.
+    MotionFormatError
+        If it breaks its format.
+
+    Examples
+    --------
+    >>> motion = read_motion("05_09.amc")  # doctest: +SKIP
+    """
+    path = Path(path)
+    kind = path.suffix.lower()
+    if kind == ".bvh":
+        return read_bvh(path)
+    if kind == ".amc":
+        return read_asf_amc(_skeleton_beside(path), path)
+    if kind == ".asf":
+        raise DataError(f"{path}: holds a skeleton without motion, want its .amc file")
+    raise DataError(f"{path}: is of kind {kind or 'none'}, want a .bvh or an .amc file")
+
+
+def _skeleton_beside(path: Path) -> Path:
+    if not path.is_file():
+        raise DataError(f"{path}: there is no such file")
+    skeletons = {p.stem: p for p in path.parent.iterdir() if p.suffix.lower() == ".asf"}
+    for stem in (path.stem, path.stem.rpartition("_")[0]):
+        if stem in skeletons:
+            return skeletons[stem]
+    if len(skeletons) == 1:
+        return next(iter(skeletons.values()))
+    prefix = path.stem.rpartition("_")[0] or path.stem
+    raise DataError(
+        f"{path}: has no skeleton beside it, want {path.stem}.asf or {prefix}.asf in its folder"
+    )
