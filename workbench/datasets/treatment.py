@@ -1,0 +1,223 @@
+"""Turn a user's data frame into a table, saying what that took.
+
+Nothing is left out, dropped or replaced without a sentence in the table's notes; what
+cannot be treated sensibly is an error that says where it stands.
+"""
+
+from __future__ import annotations
+
+import difflib
+import warnings
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench.datasets.tables import Table
+from workbench.errors import DataError
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+_MISSING_TEXT = ["", "na", "n/a", "nan", "null", "none", "?", "-", "#n/a", "nat", "<na>"]
+_UNLABELLED = "(missing)"
+_MIN_COLUMNS = 2
+_SHOWN = 8
+
+
+def table_from_frame(
+    frame: pd.DataFrame,
+    name: str,
+    label: str | None = None,
+    notes: tuple[str, ...] = (),
+) -> Table:
+    """Make a table of the numbers in a data frame.
+
+    Columns that are not numbers are left out, as are columns without any value; rows with a
+    missing value are dropped; truth values become 0 and 1. Constant columns and duplicate
+    rows are kept. Each of these is said in the table's notes.
+
+    Parameters
+    ----------
+    frame : DataFrame
+        The user's data.
+    name : str
+        What to call it.
+    label : str, optional
+        The column that holds each row's class; it is no feature then.
+    notes : tuple of str
+        What was already done to the data.
+
+    Returns
+    -------
+    Table
+
+    Raises
+    ------
+    DataError
+        If the label column does not exist, a value is infinite, or fewer than 3 rows or 2
+        columns of numbers remain.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> frame = pd.DataFrame({"x": [1, 2, 4], "y": [3.0, 5.0, 9.0], "who": ["a", "b", "b"]})
+    >>> table_from_frame(frame, "mine", label="who").class_counts
+    {'a': 1, 'b': 2}
+    """
+    frame = frame.rename(columns=str)
+    said = list(notes)
+    if len(frame) == 0:
+        raise DataError(f"{name}: found no rows")
+    labels = None if label is None else _labels(_label_column(frame, name, label), said)
+    features = frame if label is None else frame.drop(columns=label)
+    features = _without_row_index(features, said)
+
+    numbers: dict[str, NDArray[np.float64]] = {}
+    left_out: list[str] = []
+    for position in range(features.shape[1]):
+        column = features.iloc[:, position]
+        values, reason = _as_numbers(column, said)
+        if values is None:
+            left_out.append(f"{column.name!r} ({reason})")
+        else:
+            numbers[str(column.name)] = values
+    if left_out:
+        said.append(f"left out {_listed(left_out, 'column')}")
+    if len(numbers) < _MIN_COLUMNS:
+        noun = "column" if len(numbers) == 1 else "columns"
+        raise DataError(
+            f"{name}: found {len(numbers) or 'no'} {noun} of numbers, want at least "
+            f"{_MIN_COLUMNS}" + (f"; {said[-1]}" if left_out else "")
+        )
+
+    values = np.column_stack(list(numbers.values()))
+    columns: tuple[str, ...] = tuple(numbers)
+    _refuse_infinities(values, columns, name)
+    complete = ~np.isnan(values).any(axis=1)
+    if not complete.all():
+        if not complete.any():
+            worst = columns[int(np.isnan(values).sum(axis=0).argmax())]
+            raise DataError(
+                f"{name}: every row has a missing value, most of them in column {worst!r}; "
+                "leave that column out"
+            )
+        dropped = int((~complete).sum())
+        said.append(f"dropped {dropped} of {len(values)} rows, which have missing values")
+        values = values[complete]
+        labels = None if labels is None else labels[complete]
+    _remark_on_content(values, columns, said)
+    return Table(name, values, columns, labels, label or "", tuple(said))
+
+
+def _label_column(frame: pd.DataFrame, name: str, label: str) -> pd.Series:
+    if label in frame.columns:
+        column = frame[label]
+        if column.ndim == 1:
+            return column
+        raise DataError(f"{name}: {column.shape[1]} columns are called {label!r}, want one")
+    columns = [str(column) for column in frame.columns]
+    close = difflib.get_close_matches(label, columns, n=1)
+    hint = f"; did you mean {close[0]!r}?" if close else ""
+    raise DataError(f"{name}: no column {label!r} among {_listed(columns, 'column')}{hint}")
+
+
+def _labels(column: pd.Series, said: list[str]) -> NDArray[np.str_]:
+    import pandas as pd
+
+    numbers = pd.to_numeric(column, errors="coerce") if column.dtype != bool else None
+    if numbers is not None and pd.api.types.is_float_dtype(numbers.dtype):
+        whole = numbers.notna() & (numbers == np.floor(numbers)) & np.isfinite(numbers)
+        if whole.any() and (whole | column.isna()).all():
+            # A missing class makes pandas write 1 as 1.0.
+            column = numbers.astype("Int64")
+    text = column.astype("string").str.strip()
+    missing = text.isna() | text.str.lower().isin(_MISSING_TEXT)
+    if missing.any():
+        said.append(f"{int(missing.sum())} rows have no label and are labelled {_UNLABELLED}")
+    return np.asarray(text.mask(missing, _UNLABELLED).tolist(), dtype=np.str_)
+
+
+def _without_row_index(frame: pd.DataFrame, said: list[str]) -> pd.DataFrame:
+    """Leave out the row numbers that pandas writes as a first column without a name."""
+    if frame.shape[1] == 0 or str(frame.columns[0]) != "Unnamed: 0":
+        return frame
+    counted = np.arange(len(frame))
+    try:
+        first = frame.iloc[:, 0].astype(float).to_numpy()
+    except (TypeError, ValueError):
+        return frame
+    if np.array_equal(first, counted) or np.array_equal(first, counted + 1):
+        said.append("left out the first column, which has no name and counts the rows")
+        return frame.iloc[:, 1:]
+    return frame
+
+
+def _as_numbers(column: pd.Series, said: list[str]) -> tuple[NDArray[np.float64] | None, str]:
+    """Read a column as numbers, or tell why it is none."""
+    import pandas as pd
+
+    kinds = pd.api.types
+    if kinds.is_bool_dtype(column.dtype):
+        said.append(f"truth values of column {column.name!r} became 0 and 1")
+        numbers = column.astype("Float64").to_numpy(dtype=np.float64, na_value=np.nan)
+        return np.asarray(numbers, dtype=np.float64), ""
+    if kinds.is_complex_dtype(column.dtype) or kinds.is_datetime64_any_dtype(column.dtype):
+        return None, f"holds {column.dtype} values"
+    if kinds.is_timedelta64_dtype(column.dtype):
+        return None, "holds time spans"
+    if not kinds.is_numeric_dtype(column.dtype):
+        if isinstance(column.dtype, pd.CategoricalDtype):
+            column = column.astype(object)
+        text = column.map(lambda value: value.strip() if isinstance(value, str) else value)
+        missing = text.isna() | text.map(
+            lambda value: isinstance(value, str) and value.lower() in _MISSING_TEXT
+        )
+        text = text.astype(object).mask(missing, None)
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", UserWarning)
+                numbers = pd.to_numeric(text, errors="coerce")
+        except (TypeError, ValueError):
+            return None, "does not hold single values"
+        unreadable = numbers.isna() & ~missing
+        if unreadable.any():
+            row = int(np.flatnonzero(unreadable)[0])
+            return None, f"row {row + 1} holds {str(text.iloc[row])[:30]!r}"
+        column = numbers
+    values = column.to_numpy(dtype=np.float64, na_value=np.nan)
+    if np.isnan(values).all():
+        return None, "holds no values"
+    return values, ""
+
+
+def _refuse_infinities(values: NDArray[np.float64], columns: tuple[str, ...], name: str) -> None:
+    infinite = np.isinf(values)
+    if infinite.any():
+        row, column = (int(i) for i in np.argwhere(infinite)[0])
+        raise DataError(
+            f"{name}: found {values[row, column]} in row {row + 1} of column {columns[column]!r} "
+            f"({int(infinite.sum())} infinite values), want numbers; leave such cells empty to "
+            "have their rows dropped"
+        )
+
+
+def _remark_on_content(
+    values: NDArray[np.float64], columns: tuple[str, ...], said: list[str]
+) -> None:
+    constant = [repr(columns[i]) for i in np.flatnonzero(np.ptp(values, axis=0) == 0)]
+    if constant:
+        said.append(
+            f"kept constant {_listed(constant, 'column')}; standardised, a constant column is 0"
+        )
+    duplicates = len(values) - len(np.unique(values, axis=0))
+    if duplicates:
+        said.append(f"kept {duplicates} rows that repeat another")
+
+
+def _listed(items: list[str], noun: str) -> str:
+    """List a few items and count the rest."""
+    rest = len(items) - _SHOWN
+    shown = ", ".join(items[:_SHOWN])
+    more = f" and {rest} more" if rest > 0 else ""
+    return f"{noun}{'s' if len(items) > 1 else ''} {shown}{more}"
