@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import uuid
 from pathlib import Path
 
@@ -165,6 +166,8 @@ def _decimal(value: float) -> str:
 
 def _write_whole(path: Path, text: str) -> None:
     """Write a file beside its place and move it there, so that none is ever half written."""
+    if not path.name:
+        raise DataError(f"{path}: is a folder, want the name of a file")
     temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}.tmp")
     try:
         with temporary.open("x", encoding="utf-8", newline="\n") as file:
@@ -173,4 +176,6 @@ def _write_whole(path: Path, text: str) -> None:
     except OSError as error:
         raise DataError(f"{path}: cannot be written ({error.strerror})") from None
     finally:
-        temporary.unlink(missing_ok=True)
+        # There is nothing to remove after success, nor where no file could be made.
+        with contextlib.suppress(OSError):
+            temporary.unlink()
