@@ -1,0 +1,102 @@
+"""Chromium for tests: a page that must stay on this machine and out of trouble."""
+
+from __future__ import annotations
+
+import base64
+import os
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.browser.chromium import Visit, open_browser
+
+
+@pytest.fixture(scope="package")
+def browser() -> Iterator[Any]:
+    """Start Chromium; a missing one fails in CI and is a reported skip elsewhere.
+
+    It ends with the package because Playwright keeps an event loop running, in which other
+    tests could start none.
+    """
+    with open_browser() as found:
+        if found is None:
+            reason = "no chromium on this machine: the browser tests cannot run"
+            if os.environ.get("CI") == "true":
+                pytest.fail(reason)
+            pytest.skip(reason)
+        yield found
+
+
+@pytest.fixture()
+def visit(browser: Any) -> Iterator[Visit]:
+    """Open a page, and check at the end that it left no trace outside or in the console."""
+    with Visit.to(browser) as visit:
+        yield visit
+        assert visit.strayed == []
+        assert visit.complaints == []
+
+
+_MOUNT = """
+async ({esm, css, state, width}) => {
+  const style = document.createElement("style");
+  style.textContent = css;
+  document.head.append(style);
+  for (const [name, text] of Object.entries(state.binary)) {
+    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+    // Bytes in a message start anywhere, so they do here.
+    const padded = new Uint8Array(bytes.length + 3);
+    padded.set(bytes, 3);
+    state.plain[name] = new DataView(padded.buffer, 3);
+  }
+  const listeners = {};
+  const model = {
+    saved: 0,
+    get: (name) => state.plain[name],
+    set(name, value) {
+      state.plain[name] = value;
+      for (const act of listeners[`change:${name}`] ?? []) act();
+    },
+    save_changes() { this.saved += 1; },
+    on: (event, act) => (listeners[event] ??= []).push(act),
+    off: (event, act) => { listeners[event] = (listeners[event] ?? []).filter((a) => a !== act); },
+  };
+  const el = document.createElement("div");
+  el.style.width = `${width}px`;
+  document.body.append(el);
+  const address = URL.createObjectURL(new Blob([esm], {type: "text/javascript"}));
+  const module = await import(address);
+  const end = await module.default.render({model, el});
+  (window.mounted ??= []).push({model, el, end});
+  await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+}
+"""
+
+
+@pytest.fixture()
+def mount(visit: Visit) -> Callable[..., None]:
+    """Render a widget in the page with a model that needs no kernel."""
+
+    def render(widget: Any, width: int = 700) -> None:
+        plain, binary = {}, {}
+        for name, value in widget.get_state().items():
+            if isinstance(value, bytes):
+                binary[name] = base64.b64encode(value).decode()
+            elif not name.startswith("_") and name not in ("layout", "tabbable", "tooltip"):
+                plain[name] = value
+        state = {"plain": plain, "binary": binary}
+        css = str(widget._css)
+        visit.page.evaluate(
+            _MOUNT, {"esm": str(widget._esm), "css": css, "state": state, "width": width}
+        )
+
+    return render
+
+
+@pytest.fixture()
+def pictures(tmp_path: Path) -> Path:
+    """Choose where pictures for a person to look at go."""
+    folder = Path(os.environ.get("WORKBENCH_PICTURES", tmp_path))
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder

@@ -1,0 +1,9 @@
+"""Views for notebooks: traits in Python, everything that follows the mouse in the browser."""
+
+from __future__ import annotations
+
+from workbench.widgets.details import SampleDetails
+from workbench.widgets.pose import PoseView, joint_sides
+from workbench.widgets.scatter import ScatterPanels
+
+__all__ = ["PoseView", "SampleDetails", "ScatterPanels", "joint_sides"]
