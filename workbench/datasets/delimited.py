@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from workbench.datasets.formats import read_text
+from workbench.datasets.tables import counted
 from workbench.errors import DataError
 
 if TYPE_CHECKING:
@@ -143,12 +144,13 @@ def _without_comments(lines: list[str], notes: list[str]) -> list[str]:
     names, first = lines[comments[-1]].lstrip("#% "), lines[start]
     layout = detect_layout([line for line in lines[start:] if line][:_SAMPLE_LINES])
     fields, below = _split([names, first], layout.delimiter) if names else ([], [""])
-    if not layout.header and len(fields) == len(below):
+    named = not any(_NUMBER.fullmatch(field) for field in fields)
+    if named and not layout.header and len(fields) == len(below):
         lines[comments.pop()] = names
     for i in comments:
         lines[i] = ""
     if comments:
-        notes.append(f"left out {len(comments)} comment lines at the top")
+        notes.append(f"left out {counted(len(comments), 'comment line')} at the top")
     return lines
 
 

@@ -15,7 +15,7 @@ from tempfile import TemporaryDirectory
 from workbench.datasets.entries import Download, Entry, Source
 from workbench.datasets.search import absent_folders
 from workbench.datasets.unpacking import unpack
-from workbench.errors import DataError
+from workbench.errors import DataError, WorkbenchError
 
 CONNECT_SECONDS = 10.0
 READ_SECONDS = 30.0
@@ -122,7 +122,7 @@ class _Deadline:
 def _check(entry: Entry, path: Path) -> None:
     try:
         entry.read(path)
-    except DataError as error:
+    except WorkbenchError as error:
         reason = str(error).replace(f"{path}", "it")
         raise DataError(f"refused the download of {entry.name}: {reason}") from None
 

@@ -185,6 +185,8 @@ def _labelled(path: Path, lines: Sequence[tuple[int, list[str]]]) -> Rows:
     if not lines:
         raise DataError(f"{path}: found no rows")
     width = len(lines[0][1])
+    if width < 2:
+        raise DataError(f"{path}, line {lines[0][0]}: found no numbers and a class")
     values = np.empty((len(lines), width - 1))
     for row, (number, tokens) in enumerate(lines):
         if len(tokens) != width:

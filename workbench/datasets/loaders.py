@@ -102,7 +102,7 @@ def load(source: str | Path, *, label: str | None = None) -> Table | Motion:
         entry = lookup(source)
         if entry is not None:
             _refuse_label(label, source)
-            return _load_entry(entry)
+            return load_entry(entry)
         if not _exists(source):
             raise DataError(_unknown(source))
     elif not isinstance(source, Path):
@@ -190,15 +190,18 @@ def fetch(name: str) -> Status:
     DataError
         If it cannot be downloaded, or a copy in another folder is damaged.
     """
-    entry = _entry(name)
+    return fetch_entry(_entry(name))
+
+
+def fetch_entry(entry: Entry) -> Status:
+    """Make the data set of an entry available, see :func:`fetch`."""
     found = status(entry)
-    if found.state != "available" and found.state != "built in":
-        return Status(entry, "available", download(entry, cache_folder()))
-    try:
-        return check(name)
-    except DataError:
-        if found.path is None or not found.path.is_relative_to(cache_folder()):
-            raise
+    if found.state in ("available", "built in"):
+        try:
+            return check_entry(entry)
+        except DataError:
+            if found.path is None or not found.path.is_relative_to(cache_folder()):
+                raise
     return Status(entry, "available", download(entry, cache_folder()))
 
 
@@ -219,26 +222,34 @@ def check(name: str) -> Status:
     DataError
         If it is damaged or altered, or is not there.
     """
-    entry = _entry(name)
+    return check_entry(_entry(name))
+
+
+def check_entry(entry: Entry) -> Status:
+    """Read and compare the data set of an entry, see :func:`check`."""
     found = status(entry)
-    if found.path is not None:
-        entry.read(found.path)
-    elif isinstance(entry, TableEntry) and entry.built_in is not None:
-        entry.build()
-    else:
+    if found.state not in ("available", "built in"):
         raise DataError(
-            f"{name}: not found{absent_folders()}; `workbench datasets fetch {name}` downloads it"
+            f"{entry.name}: not found{absent_folders()}; "
+            f"`workbench datasets fetch {entry.name}` downloads it"
         )
+    _read(found)
     return found
 
 
-def _load_entry(entry: Entry) -> Table | Motion:
+def load_entry(entry: Entry) -> Table | Motion:
+    """Load the data set of an entry, downloading it if it is found nowhere."""
     found = status(entry)
-    if found.path is not None:
-        return entry.read(found.path)
-    if isinstance(entry, TableEntry) and entry.built_in is not None:
-        return entry.build()
+    if found.state in ("available", "built in"):
+        return _read(found)
     return entry.read(download(entry, cache_folder()))
+
+
+def _read(found: Status) -> Table | Motion:
+    if found.path is not None:
+        return found.entry.read(found.path)
+    assert isinstance(found.entry, TableEntry)  # nothing else is built in
+    return found.entry.build()
 
 
 def _load_file(path: Path, label: str | None) -> Table | Motion:

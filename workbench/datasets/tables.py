@@ -65,9 +65,8 @@ class Table:
             raise DataError(f"{self.name}: got values of shape {values.shape}, want a table")
         n_rows, n_columns = values.shape
         if n_rows < MIN_SAMPLES:
-            rows = "row" if n_rows == 1 else "rows"
             raise DataError(
-                f"{self.name}: got {n_rows or 'no'} {rows}, want at least {MIN_SAMPLES}"
+                f"{self.name}: got {counted(n_rows, 'row')}, want at least {MIN_SAMPLES}"
             )
         if len(self.columns) != n_columns:
             raise DataError(f"{self.name}: got {len(self.columns)} column names, want {n_columns}")
@@ -76,7 +75,7 @@ class Table:
             row, column = (int(i) for i in np.argwhere(unfit)[0])
             raise DataError(
                 f"{self.name}: got {values[row, column]} in row {row + 1} of column "
-                f"{self.columns[column]!r} ({int(unfit.sum())} such values), "
+                f"{self.columns[column]!r} ({counted(int(unfit.sum()), 'such value')}), "
                 f"want finite numbers up to {LARGEST:g}"
             )
         object.__setattr__(self, "values", values)
@@ -153,3 +152,8 @@ def content_checksum(values: NDArray[np.float64], labels: NDArray[Any] | None = 
     if labels is not None:
         digest.update("\0".join(labels.tolist()).encode())
     return digest.hexdigest()
+
+
+def counted(number: int, noun: str) -> str:
+    """Write a number of things for a message: "no rows", "1 row", "2 rows"."""
+    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"

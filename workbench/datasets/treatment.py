@@ -7,14 +7,14 @@ cannot be treated sensibly is an error that says where it stands.
 from __future__ import annotations
 
 import difflib
-import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.datasets.tables import Table
+from workbench.datasets.tables import LARGEST, Table, counted
 from workbench.errors import DataError
+from workbench.validation import MIN_SAMPLES
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -73,7 +73,8 @@ def table_from_frame(
     features = frame if label is None else frame.drop(columns=label)
     features = _without_row_index(features, said)
 
-    numbers: dict[str, NDArray[np.float64]] = {}
+    names: list[str] = []
+    numbers: list[NDArray[np.float64]] = []
     left_out: list[str] = []
     for position in range(features.shape[1]):
         column = features.iloc[:, position]
@@ -81,18 +82,18 @@ def table_from_frame(
         if values is None:
             left_out.append(f"{column.name!r} ({reason})")
         else:
-            numbers[str(column.name)] = values
+            names.append(str(column.name))
+            numbers.append(values)
     if left_out:
         said.append(f"left out {_listed(left_out, 'column')}")
     if len(numbers) < _MIN_COLUMNS:
-        noun = "column" if len(numbers) == 1 else "columns"
         raise DataError(
-            f"{name}: found {len(numbers) or 'no'} {noun} of numbers, want at least "
+            f"{name}: found {counted(len(numbers), 'column')} of numbers, want at least "
             f"{_MIN_COLUMNS}" + (f"; {said[-1]}" if left_out else "")
         )
 
-    values = np.column_stack(list(numbers.values()))
-    columns: tuple[str, ...] = tuple(numbers)
+    values = np.column_stack(numbers)
+    columns = tuple(names)
     _refuse_infinities(values, columns, name)
     complete = ~np.isnan(values).any(axis=1)
     if not complete.all():
@@ -104,6 +105,10 @@ def table_from_frame(
             )
         dropped = int((~complete).sum())
         said.append(f"dropped {dropped} of {len(values)} rows, which have missing values")
+        if complete.sum() < MIN_SAMPLES:
+            raise DataError(
+                f"{name}: {said[-1]}; want at least {MIN_SAMPLES} rows without missing values"
+            )
         values = values[complete]
         labels = None if labels is None else labels[complete]
     _remark_on_content(values, columns, said)
@@ -134,7 +139,7 @@ def _labels(column: pd.Series, said: list[str]) -> NDArray[np.str_]:
     text = column.astype("string").str.strip()
     missing = text.isna() | text.str.lower().isin(_MISSING_TEXT)
     if missing.any():
-        said.append(f"{int(missing.sum())} rows have no label and are labelled {_UNLABELLED}")
+        said.append(f"{counted(int(missing.sum()), 'row')} without a label got {_UNLABELLED!r}")
     return np.asarray(text.mask(missing, _UNLABELLED).tolist(), dtype=np.str_)
 
 
@@ -142,12 +147,12 @@ def _without_row_index(frame: pd.DataFrame, said: list[str]) -> pd.DataFrame:
     """Leave out the row numbers that pandas writes as a first column without a name."""
     if frame.shape[1] == 0 or str(frame.columns[0]) != "Unnamed: 0":
         return frame
-    counted = np.arange(len(frame))
+    numbered = np.arange(len(frame))
     try:
         first = frame.iloc[:, 0].astype(float).to_numpy()
     except (TypeError, ValueError):
         return frame
-    if np.array_equal(first, counted) or np.array_equal(first, counted + 1):
+    if np.array_equal(first, numbered) or np.array_equal(first, numbered + 1):
         said.append("left out the first column, which has no name and counts the rows")
         return frame.iloc[:, 1:]
     return frame
@@ -158,47 +163,54 @@ def _as_numbers(column: pd.Series, said: list[str]) -> tuple[NDArray[np.float64]
     import pandas as pd
 
     kinds = pd.api.types
-    if kinds.is_bool_dtype(column.dtype):
-        said.append(f"truth values of column {column.name!r} became 0 and 1")
-        numbers = column.astype("Float64").to_numpy(dtype=np.float64, na_value=np.nan)
-        return np.asarray(numbers, dtype=np.float64), ""
     if kinds.is_complex_dtype(column.dtype) or kinds.is_datetime64_any_dtype(column.dtype):
         return None, f"holds {column.dtype} values"
     if kinds.is_timedelta64_dtype(column.dtype):
         return None, "holds time spans"
-    if not kinds.is_numeric_dtype(column.dtype):
-        if isinstance(column.dtype, pd.CategoricalDtype):
-            column = column.astype(object)
-        text = column.map(lambda value: value.strip() if isinstance(value, str) else value)
-        missing = text.isna() | text.map(
-            lambda value: isinstance(value, str) and value.lower() in _MISSING_TEXT
-        )
-        text = text.astype(object).mask(missing, None)
-        try:
-            with warnings.catch_warnings():
-                warnings.simplefilter("ignore", UserWarning)
-                numbers = pd.to_numeric(text, errors="coerce")
-        except (TypeError, ValueError):
-            return None, "does not hold single values"
-        unreadable = numbers.isna() & ~missing
-        if unreadable.any():
-            row = int(np.flatnonzero(unreadable)[0])
-            return None, f"row {row + 1} holds {str(text.iloc[row])[:30]!r}"
-        column = numbers
-    values = column.to_numpy(dtype=np.float64, na_value=np.nan)
+    if kinds.is_bool_dtype(column.dtype):
+        said.append(f"truth values of column {column.name!r} became 0 and 1")
+        column = column.astype("Float64")
+    elif not kinds.is_numeric_dtype(column.dtype):
+        parsed, reason = _parse(column, said)
+        if parsed is None:
+            return None, reason
+        column = parsed
+    values = np.asarray(column.to_numpy(dtype=np.float64, na_value=np.nan), dtype=np.float64)
     if np.isnan(values).all():
         return None, "holds no values"
     return values, ""
 
 
+def _parse(column: pd.Series, said: list[str]) -> tuple[pd.Series | None, str]:
+    """Parse a column of text or of mixed objects as numbers, or tell why it holds none."""
+    import pandas as pd
+
+    text = column.astype(object).map(lambda item: item.strip() if isinstance(item, str) else item)
+    lower = text.map(lambda item: item.lower() if isinstance(item, str) else item)
+    missing = text.isna() | lower.map(lambda item: isinstance(item, str) and item in _MISSING_TEXT)
+    present = lower[~missing]
+    if len(present) and present.map(lambda item: item in ("true", "false")).all():
+        said.append(f"truth values of column {column.name!r} became 0 and 1")
+        return lower.map({"true": 1.0, "false": 0.0}), ""
+    try:
+        numbers = pd.to_numeric(text.mask(missing, None), errors="coerce")
+    except (TypeError, ValueError):
+        return None, "does not hold single values"
+    unreadable = numbers.isna() & ~missing
+    if unreadable.any():
+        row = int(np.flatnonzero(unreadable)[0])
+        return None, f"row {row + 1} holds {str(text.iloc[row])[:30]!r}"
+    return numbers, ""
+
+
 def _refuse_infinities(values: NDArray[np.float64], columns: tuple[str, ...], name: str) -> None:
-    infinite = np.isinf(values)
-    if infinite.any():
-        row, column = (int(i) for i in np.argwhere(infinite)[0])
+    beyond = np.abs(values) > LARGEST
+    if beyond.any():
+        row, column = (int(i) for i in np.argwhere(beyond)[0])
         raise DataError(
             f"{name}: found {values[row, column]} in row {row + 1} of column {columns[column]!r} "
-            f"({int(infinite.sum())} infinite values), want numbers; leave such cells empty to "
-            "have their rows dropped"
+            f"({counted(int(beyond.sum()), 'such value')}), want numbers up to {LARGEST:g}; leave "
+            "such cells empty to have their rows dropped"
         )
 
 
@@ -212,7 +224,7 @@ def _remark_on_content(
         )
     duplicates = len(values) - len(np.unique(values, axis=0))
     if duplicates:
-        said.append(f"kept {duplicates} rows that repeat another")
+        said.append(f"kept {counted(duplicates, 'row')} that repeat another")
 
 
 def _listed(items: list[str], noun: str) -> str:
