@@ -140,9 +140,7 @@ class VectorSpace(Space):
         self.columns = tuple(columns) if columns else tuple(f"x{i}" for i in range(array.shape[1]))
         self.labels: NDArray[Any] | None = None if labels is None else np.asarray(labels)
         if len(self.columns) != array.shape[1]:
-            raise WorkbenchError(
-                f"columns: got {len(self.columns)} names, want {array.shape[1]}"
-            )
+            raise WorkbenchError(f"columns: got {len(self.columns)} names, want {array.shape[1]}")
         if self.labels is not None and self.labels.shape != (len(array),):
             raise WorkbenchError(f"labels: got shape {self.labels.shape}, want ({len(array)},)")
 

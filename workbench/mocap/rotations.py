@@ -111,9 +111,7 @@ def euler_from_rotations(order: str, rotations: ArrayLike) -> NDArray[np.float64
     first = np.arctan2(-sign * rotations[..., j, k], rotations[..., k, k])
     third = np.arctan2(-sign * rotations[..., i, j], rotations[..., i, i])
     locked = cosine < 1e-9
-    first = np.where(
-        locked, np.arctan2(sign * rotations[..., k, j], rotations[..., j, j]), first
-    )
+    first = np.where(locked, np.arctan2(sign * rotations[..., k, j], rotations[..., j, j]), first)
     third = np.where(locked, 0.0, third)
     return np.degrees(np.stack([first, second, third], axis=-1))
 
@@ -235,8 +233,15 @@ def _nearest_rotation(m):  # type: ignore[no-untyped-def]  # compiled
         nd, ne, nf = half * d + inverse * cd, half * e + inverse * ce, half * f + inverse * cf
         ng, nh, ni = half * g + inverse * cg, half * h + inverse * ch, half * i + inverse * ci
         change = (
-            abs(na - a) + abs(nb - b) + abs(nc - c) + abs(nd - d) + abs(ne - e)
-            + abs(nf - f) + abs(ng - g) + abs(nh - h) + abs(ni - i)
+            abs(na - a)
+            + abs(nb - b)
+            + abs(nc - c)
+            + abs(nd - d)
+            + abs(ne - e)
+            + abs(nf - f)
+            + abs(ng - g)
+            + abs(nh - h)
+            + abs(ni - i)
         )
         a, b, c, d, e, f, g, h, i = na, nb, nc, nd, ne, nf, ng, nh, ni
         # Quadratic convergence: after a change of 1e-8 the next would be of 1e-16.

@@ -67,16 +67,14 @@ def project(
     else:
         estimator = clone(projector)
     parameters = estimator.get_params(deep=False)
-    if parameters.get("random_state", random_state) is None:
+    if "random_state" in parameters and parameters["random_state"] is None:
         estimator.set_params(random_state=random_state)
     samples = space.features
     if "metric" in parameters and not isinstance(space, VectorSpace):
         estimator.set_params(metric="precomputed")
         samples = space.distances
     name = projector if isinstance(projector, str) else type(projector).__name__
-    embedding = as_embedding(
-        estimator.fit_transform(samples), f"embedding by {name!r}", len(space)
-    )
+    embedding = as_embedding(estimator.fit_transform(samples), f"embedding by {name!r}", len(space))
     return scale_to_unit_square(embedding)
 
 

@@ -104,8 +104,9 @@ def neighborhood_quality(
     missed = np.zeros(len(sizes))
     kept = np.zeros(len(sizes))
     for data_ranks, point_ranks in _rank_blocks(data, points):
-        # A pair with min rank above the largest k matters for no size.
-        near = np.minimum(data_ranks, point_ranks) <= largest
+        # Rank 0 is the sample itself, and a pair with both ranks above the largest k matters
+        # for no size.
+        near = (data_ranks > 0) & (np.minimum(data_ranks, point_ranks) <= largest)
         r, rho = data_ranks[near], point_ranks[near]
         for index, size in enumerate(sizes):
             false[index] += np.sum((r - size)[(rho <= size) & (r > size)])

@@ -1,0 +1,43 @@
+# Every target makes its own virtual environment when it is missing or out of date.
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+REPORT := reproduction
+
+.DEFAULT_GOAL := help
+.PHONY: help setup reproduce test check lab format screenshots clean
+
+help: ## Say what the targets do
+	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 20
+
+setup: $(VENV)/installed ## Make the virtual environment
+
+$(VENV)/installed: pyproject.toml constraints.txt
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --upgrade pip
+	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[test,app]'
+	@touch $@
+
+reproduce: $(VENV)/installed ## Regenerate the figures and tables on bundled data
+	$(BIN)/workbench reproduce --profile quick --out $(REPORT)
+
+test: $(VENV)/installed ## Run all tests
+	$(BIN)/python -m pytest
+
+check: $(VENV)/installed ## Check style, types, imports and notebooks
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+	$(BIN)/python tests/check_notebooks.py notebooks
+
+format: $(VENV)/installed ## Format the code
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+lab: $(VENV)/installed ## Open the notebooks in JupyterLab
+	$(BIN)/workbench lab
+
+clean: ## Remove everything that was made
+	rm -rf $(VENV) $(REPORT) dist build

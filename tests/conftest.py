@@ -1,0 +1,59 @@
+"""Fixtures that tests of several packages share."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from workbench.mocap.motion import Motion
+from workbench.mocap.rotations import rotations_from_euler
+from workbench.mocap.skeleton import EndSite, Skeleton
+from workbench.resources import bundled
+
+
+def data_folders() -> list[Path]:
+    """List the data folders in the package's search order."""
+    named = [Path(p) for p in os.environ.get("WORKBENCH_DATA", "").split(os.pathsep) if p]
+    return [*named, bundled("datasets")]
+
+
+def find_clip(name: str) -> Path:
+    """Find a BVH file of the data folders, or skip the test and say which one is missing."""
+    for folder in data_folders():
+        path = folder / "mocap" / "bvh" / f"{name}.bvh"
+        if path.is_file():
+            return path
+    pytest.skip(f"needs {name}.bvh in a folder named by WORKBENCH_DATA")
+
+
+@pytest.fixture
+def arm() -> Skeleton:
+    """Give a skeleton of a root with two chains: bones of 1 + 2 + 3, and of 1."""
+    channels = ("Zrotation", "Yrotation", "Xrotation")
+    return Skeleton(
+        names=("root", "upper", "lower", "other"),
+        parents=np.array([-1, 0, 1, 0]),
+        offsets=np.array([[0, 0, 0], [1, 0, 0], [0, 2, 0], [0, 0, 1]], dtype=float),
+        end_sites=(EndSite(2, np.array([0.0, 0.0, 3.0])), EndSite(3, np.zeros(3))),
+        channels=(("Xposition", "Yposition", "Zposition", *channels), *[channels] * 3),
+    )
+
+
+@pytest.fixture
+def waving(arm: Skeleton) -> Motion:
+    """Give a smooth motion of that skeleton, 60 frames long."""
+    t = np.linspace(0, 2 * np.pi, 60)
+    angles = np.stack(
+        [
+            np.stack([40 * np.sin(t), 20 * np.cos(t), 10 * np.sin(2 * t)], axis=1),
+            np.stack([30 * np.cos(t), 0 * t, 50 * np.sin(t)], axis=1),
+            np.stack([0 * t, 60 * np.sin(t + 1), 0 * t], axis=1),
+            np.stack([5 * np.sin(3 * t), 0 * t, 0 * t], axis=1),
+        ],
+        axis=1,
+    )
+    path = np.stack([t, np.sin(t), 0 * t], axis=1)
+    return Motion(arm, rotations_from_euler("ZYX", angles), path, 1 / 30, name="waving")

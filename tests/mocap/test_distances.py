@@ -1,0 +1,68 @@
+"""Tests of workbench.mocap.distances."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from workbench.mocap.distances import (
+    position_distance_matrix,
+    position_distance_pairs,
+    rotation_distance_matrix,
+    rotation_distance_pairs,
+)
+
+WEIGHTS = np.array([3.0, 0.5, 0.0, 1.0])
+
+
+@pytest.fixture
+def poses():
+    """Give 21 random poses of 4 joints."""
+    return Rotation.random(84, random_state=0).as_matrix().reshape(21, 4, 3, 3)
+
+
+def by_trace(a, b):
+    """Evaluate Eq. 3.2 of Costa 2018 as printed."""
+    cosine = (np.einsum("jrc,jrc->j", a, b) - 1) / 2
+    return float(WEIGHTS @ np.arccos(np.clip(cosine, -1, 1)))
+
+
+@pytest.mark.parametrize("n", [21, 20], ids=["odd", "even"])
+def test_rotation_distances_agree_with_the_printed_formula(poses, n):
+    """D_q of all pairs equals the weighted arccos of traces."""
+    poses = poses[:n]
+    expected = np.array([[by_trace(a, b) for b in poses] for a in poses])
+    found = rotation_distance_matrix(poses, WEIGHTS)
+    # Away from the diagonal, where the printed arccos loses half its digits.
+    assert np.allclose(found, expected, atol=1e-6)
+    assert np.array_equal(found, found.T)
+    assert np.all(np.diag(found) == 0)
+
+
+def test_pairs_agree_with_the_matrix(poses):
+    """Distances of single pairs are the entries of the full matrix."""
+    rows, columns = np.triu_indices(len(poses))
+    matrix = rotation_distance_matrix(poses, WEIGHTS)
+    pairs = rotation_distance_pairs(poses[rows], poses[columns], WEIGHTS)
+    assert np.allclose(pairs, matrix[rows, columns], rtol=1e-14)
+
+
+def test_rotation_distance_of_known_angles():
+    """Two joints turned by 90 and 30 degrees with weights 2 and 3 are π + π/2 apart."""
+    still = np.stack([np.eye(3)] * 2)[None]
+    turned = Rotation.from_euler("X", [[90], [30]], degrees=True).as_matrix()[None]
+    found = rotation_distance_pairs(still, turned, np.array([2.0, 3.0]))
+    assert found[0] == pytest.approx(np.pi + np.pi / 2)
+
+
+def test_position_distances_agree_with_the_printed_formula():
+    """D_p of all pairs equals the weighted sum of squared joint distances."""
+    positions = np.random.default_rng(1).normal(size=(12, 4, 3))
+    expected = np.array(
+        [[np.sum(WEIGHTS * np.sum((a - b) ** 2, axis=1)) for b in positions] for a in positions]
+    )
+    assert np.allclose(position_distance_matrix(positions, WEIGHTS), expected)
+    first, second = np.array([0, 3]), np.array([7, 2])
+    pairs = position_distance_pairs(positions[first], positions[second], WEIGHTS)
+    assert np.allclose(pairs, expected[first, second])

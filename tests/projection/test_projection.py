@@ -1,0 +1,165 @@
+"""Tests of workbench.projection."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+import pytest
+from scipy.spatial.distance import cdist, pdist
+from sklearn.base import BaseEstimator, TransformerMixin
+from sklearn.datasets import load_iris, make_blobs
+from sklearn.manifold import trustworthiness
+from sklearn.utils.estimator_checks import check_estimator
+
+from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
+from workbench.projection import project, projectors, scale_to_unit_square
+from workbench.spaces import PoseSpace, VectorSpace
+
+BUILT_IN = ["pca", "mds", "isomap", "lle", "tsne", "umap"]
+ON_DISTANCES = ["mds", "isomap", "tsne", "umap"]
+
+
+@pytest.fixture(scope="module")
+def iris():
+    """Give the Iris table."""
+    return VectorSpace(load_iris().data, name="iris")
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+@pytest.mark.filterwarnings("ignore")  # scikit-learn's checks use tiny data on purpose
+def test_projectors_follow_scikit_learns_conventions(name):
+    """The estimator passes scikit-learn's own checks."""
+    check_estimator(projectors.create(name))
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+@pytest.mark.parametrize("dimensions", [2, 3])
+def test_same_seed_same_embedding(iris, name, dimensions):
+    """Two runs with one seed agree in every digit, in two and three dimensions."""
+    projector = projectors.create(name, n_components=dimensions)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DegenerateDataWarning)
+        first, second = (project(iris, projector, random_state=7) for _ in range(2))
+    assert first.shape == (150, dimensions)
+    assert np.array_equal(first, second)
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+@pytest.mark.filterwarnings("ignore::workbench.DegenerateDataWarning")
+def test_projections_keep_neighborhoods(iris, name):
+    """Every method is trustworthy on Iris, far above the 0.5 of a random layout."""
+    embedding = project(iris, name, random_state=0)
+    assert trustworthiness(iris.samples, embedding, n_neighbors=10) > 0.9
+
+
+@pytest.mark.parametrize("name", ON_DISTANCES)
+def test_precomputed_distances_serve_as_well_as_vectors(iris, name):
+    """A projector given Euclidean distances keeps them as well as one given the vectors."""
+    projector = projectors.create(name)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DegenerateDataWarning)
+        if "random_state" in projector.get_params():
+            projector.set_params(random_state=0)
+        on_vectors = projector.fit_transform(iris.samples)
+        on_distances = projector.set_params(metric="precomputed").fit_transform(iris.distances)
+    scores = [trustworthiness(iris.samples, e, n_neighbors=10) for e in (on_vectors, on_distances)]
+    assert scores[1] == pytest.approx(scores[0], abs=0.02)
+
+
+@pytest.mark.parametrize("name", ["pca", "mds"])
+def test_a_plane_in_space_is_recovered_exactly(name):
+    """Points of a plane in 10 dimensions keep all their distances."""
+    rng = np.random.default_rng(0)
+    plane = rng.normal(size=(40, 2))
+    basis = np.linalg.qr(rng.normal(size=(10, 2)))[0]
+    embedding = projectors.create(name).fit_transform(plane @ basis.T + 5.0)
+    assert np.allclose(pdist(embedding), pdist(plane), atol=1e-9)
+
+
+def test_isomap_unrolls_a_curve():
+    """Points along a spiral come out in the order and spacing of their arc length."""
+    angle = np.linspace(1, 4 * np.pi, 200)
+    spiral = np.stack([angle * np.cos(angle), angle * np.sin(angle)], axis=1)
+    arc = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(spiral, axis=0), axis=1))])
+    first = projectors.create("isomap", n_neighbors=4).fit_transform(spiral)[:, 0]
+    assert abs(np.corrcoef(first, arc)[0, 1]) > 0.999
+
+
+def test_pca_places_new_samples_on_the_map(iris):
+    """Transforming the training samples gives their positions, halves give half maps."""
+    projector = projectors.create("pca").fit(iris.samples)
+    assert np.allclose(projector.transform(iris.samples), projector.embedding_)
+    assert np.allclose(projector.transform(iris.samples[:9]), projector.embedding_[:9])
+
+
+@pytest.mark.parametrize(
+    ("name", "parameter"),
+    [("isomap", "n_neighbors"), ("lle", "n_neighbors"), ("tsne", "perplexity")],
+)
+def test_parameters_too_large_for_the_data_are_lowered_and_said(name, parameter):
+    """Nine samples allow neither 14 neighbours nor a perplexity of 50."""
+    samples = np.random.default_rng(0).normal(size=(9, 4))
+    with pytest.warns(AdjustmentWarning, match=f"{parameter}=.* lowered to"):
+        embedding = projectors.create(name).fit_transform(samples)
+    assert np.isfinite(embedding).all()
+
+
+def test_a_graph_in_parts_is_said():
+    """Isomap of two far clusters works and tells that it joined them."""
+    samples, _ = make_blobs([25, 25], centers=[[0, 0], [99, 99]], random_state=0)
+    with pytest.warns(DegenerateDataWarning, match="falls into parts"):
+        embedding = projectors.create("isomap", n_neighbors=5).fit_transform(samples)
+    assert np.isfinite(embedding).all()
+
+
+def test_motions_are_projected_by_their_pose_distances(waving):
+    """MDS of a motion equals MDS of its D_q matrix."""
+    space = PoseSpace(waving)
+    expected = projectors.create("mds", metric="precomputed").fit_transform(space.distances)
+    assert np.array_equal(project(space, "mds"), scale_to_unit_square(expected))
+
+
+def test_scaling_to_the_unit_square_keeps_the_shape():
+    """Distances shrink by one factor, the larger extent becomes 1."""
+    points = np.random.default_rng(0).normal(size=(30, 2)) * [9, 2] + 100
+    scaled = scale_to_unit_square(points)
+    ratio = cdist(scaled, scaled)[0, 1:] / cdist(points, points)[0, 1:]
+    assert np.allclose(ratio, ratio[0])
+    assert scaled.min() == 0
+    assert scaled.max() == pytest.approx(1)
+
+
+def test_coinciding_points_cannot_be_scaled():
+    """An embedding in one place is refused."""
+    with pytest.raises(WorkbenchError, match="one place"):
+        scale_to_unit_square(np.ones((5, 2)))
+
+
+def test_a_users_own_projector_is_found_by_name(iris, monkeypatch):
+    """A registered class is used like a built-in one, and its parameters are not changed."""
+
+    class FirstTwo(TransformerMixin, BaseEstimator):
+        def fit(self, X, y=None):
+            return self
+
+        def transform(self, X):
+            return X[:, :2]
+
+    monkeypatch.setattr(projectors, "_entries", dict(projectors._entries))
+    projectors.register("first-two", FirstTwo)
+    assert np.array_equal(project(iris, "first-two"), scale_to_unit_square(iris.samples[:, :2]))
+
+
+def test_a_projector_with_a_wrong_result_is_named(iris):
+    """An embedding of the wrong shape is refused with the projector's name."""
+
+    class Wrong(TransformerMixin, BaseEstimator):
+        def fit(self, X, y=None):
+            return self
+
+        def transform(self, X):
+            return X
+
+    with pytest.raises(WorkbenchError, match=r"embedding by 'Wrong'.*\(150, 4\)"):
+        project(iris, Wrong())
