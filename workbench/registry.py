@@ -91,7 +91,7 @@ class Registry:
             module, _, attribute = entry.partition(":")
             entry = getattr(import_module(module), attribute)
             self._entries[name] = entry
-        return entry  # type: ignore[return-value]  # a string entry was replaced above
+        return entry
 
     def create(self, name: str, *args: Any, **parameters: Any) -> Any:
         """Build the method of that name with the given parameters."""

@@ -155,9 +155,12 @@ def choose_control_points(
         If the name, the count or the ratio is not valid.
     """
     wanted = control_point_count(len(space), count=count, ratio=ratio)
-    if isinstance(selector, str):
-        selector = _create_seeded(selectors.factory(selector), random_state)
-    return control_point_indices(selector.select(space, wanted), len(space))
+    chosen: Selector = (
+        _create_seeded(selectors.factory(selector), random_state)
+        if isinstance(selector, str)
+        else selector
+    )
+    return control_point_indices(chosen.select(space, wanted), len(space))
 
 
 @dataclass(frozen=True)

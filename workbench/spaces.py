@@ -158,11 +158,11 @@ class VectorSpace(Space):
 
     def pair_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
         """Measure the Euclidean distances between pairs of rows."""
-        return np.linalg.norm(self.samples[first] - self.samples[second], axis=1)
+        return np.linalg.norm(self.samples[_index(first)] - self.samples[_index(second)], axis=1)
 
     def errors(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
         """Measure the Euclidean distances between rows and their reconstructions."""
-        return np.linalg.norm(self.samples[indices] - np.asarray(reconstructions), axis=1)
+        return np.linalg.norm(self.samples[_index(indices)] - np.asarray(reconstructions), axis=1)
 
     @cached_property
     def neighbors(self) -> NDArray[np.intp]:
@@ -236,14 +236,16 @@ class PoseSpace(Space):
         """Measure D_q between pairs of frames."""
         from workbench.mocap.distances import rotation_distance_pairs
 
-        return rotation_distance_pairs(self.samples[first], self.samples[second], self.weights)
+        return rotation_distance_pairs(
+            self.samples[_index(first)], self.samples[_index(second)], self.weights
+        )
 
     def errors(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
         """Measure D_q per joint between frames and their reconstructions."""
         from workbench.mocap.distances import rotation_distance_pairs
 
         poses = np.asarray(reconstructions, dtype=np.float64)
-        return rotation_distance_pairs(self.samples[indices], poses, self.weights) / len(
+        return rotation_distance_pairs(self.samples[_index(indices)], poses, self.weights) / len(
             self.weights
         )
 
@@ -266,7 +268,9 @@ class PoseSpace(Space):
         from workbench.mocap.distances import position_distance_pairs
 
         return position_distance_pairs(
-            self.positions[first], self.positions[second], np.ones(len(self.weights))
+            self.positions[_index(first)],
+            self.positions[_index(second)],
+            np.ones(len(self.weights)),
         )
 
     @cached_property
@@ -284,3 +288,7 @@ class PoseSpace(Space):
         mean = nearest_rotations(self.samples.mean(axis=0))
         every = np.broadcast_to(mean, self.samples.shape)
         return float(self.errors(np.arange(len(self)), every).mean())
+
+
+def _index(indices: ArrayLike) -> NDArray[np.intp]:
+    return np.asarray(indices, dtype=np.intp)

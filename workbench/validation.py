@@ -87,7 +87,8 @@ def control_point_indices(indices: ArrayLike, n_samples: int) -> NDArray[np.intp
         )
     if array.min() < 0 or array.max() >= n_samples:
         raise WorkbenchError(
-            f"control points: got {array.min()}…{array.max()}, want indices from 0 to {n_samples - 1}"
+            f"control points: got {array.min()}…{array.max()}, "
+            f"want indices from 0 to {n_samples - 1}"
         )
     if np.any(np.diff(array) <= 0):
         raise WorkbenchError("control points: got unsorted or repeated indices, want each once")

@@ -102,7 +102,7 @@ def test_collinear_markers_rebuild_their_poses(points):
     """Markers on a line leave the polynomial undetermined, which harms nothing."""
     found = SpatialKeyframes().fit(points, POSES).predict(points)
     assert np.abs(found - POSES).max() < 1e-9
-    beside = SpatialKeyframes().fit(points, POSES).predict(points + [0.0, 0.5])
+    beside = SpatialKeyframes().fit(points, POSES).predict(points + np.array([0.0, 0.5]))
     assert np.isfinite(beside).all()
 
 

@@ -36,8 +36,8 @@ def literal_sweep(objective, points, free, neighbors, alpha=0.5, delta=0.5):
             return objective(np.asarray(at)[None], [sample])[0]
 
         e_o = error(q)
-        e_xp, e_xn = error(q + [delta * r, 0]), error(q - [delta * r, 0])
-        e_yp, e_yn = error(q + [0, delta * r]), error(q - [0, delta * r])
+        e_xp, e_xn = error(q + np.array([delta * r, 0])), error(q - np.array([delta * r, 0]))
+        e_yp, e_yn = error(q + np.array([0, delta * r])), error(q - np.array([0, delta * r]))
         h = np.zeros(2)
         if e_o > e_xp or e_o > e_xn:
             h += np.array([1, 0]) * (e_xn - e_xp)

@@ -11,7 +11,11 @@ from sklearn.datasets import load_iris
 from sklearn.manifold import trustworthiness
 from zadu.measures import (
     scale_normalized_stress as zadu_scale_normalized_stress,
+)
+from zadu.measures import (
     stress as zadu_stress,
+)
+from zadu.measures import (
     trustworthiness_continuity,
 )
 

@@ -14,7 +14,7 @@ from workbench.errors import WorkbenchError
 from workbench.mocap.rotations import nearest_rotations
 
 
-class PoseBackProjector(BaseEstimator):  # type: ignore[misc]  # sklearn is untyped
+class PoseBackProjector(BaseEstimator):
     """Rebuild poses with a method that rebuilds vectors.
 
     The nine matrix entries of every joint are rebuilt as numbers; what comes out is no

@@ -16,7 +16,7 @@ from workbench.errors import DegenerateDataWarning
 _BLOCK = 8192
 
 
-class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):  # type: ignore[misc]  # sklearn is untyped
+class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):
     """Rebuild samples by radial basis function interpolation from control points.
 
     f(x) = Σ_j w_j ‖x − c_j‖ + P(x), with a linear polynomial P, passes through the samples
@@ -70,11 +70,12 @@ class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):  # type: ignore[misc
         DegenerateDataWarning
             If control points with different samples coincide.
         """
-        X, y = validate_data(self, X, y, multi_output=True, y_numeric=True, dtype=np.float64)
-        values = np.asarray(y, dtype=np.float64)
+        points, targets = validate_data(
+            self, X, y, multi_output=True, y_numeric=True, dtype=np.float64
+        )
+        values = np.asarray(targets, dtype=np.float64)
         self._single_output = values.ndim == 1
-        values = values.reshape(len(X), -1)
-        centers, values = _merge_coinciding(X, values)
+        centers, values = _merge_coinciding(points, values.reshape(len(points), -1))
 
         # Centred and scaled, so that the polynomial part is as well conditioned as can be.
         middle = centers.mean(axis=0)
@@ -110,10 +111,10 @@ class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):  # type: ignore[misc
         ndarray of shape (n_points, n_outputs), or (n_points,) if fitted so
         """
         check_is_fitted(self)
-        X = validate_data(self, X, reset=False, dtype=np.float64)
-        result = np.empty((len(X), self.weights_.shape[1]))
-        for start in range(0, len(X), _BLOCK):
-            block = X[start : start + _BLOCK]
+        points = validate_data(self, X, reset=False, dtype=np.float64)
+        result = np.empty((len(points), self.weights_.shape[1]))
+        for start in range(0, len(points), _BLOCK):
+            block = points[start : start + _BLOCK]
             part = _distances(block, self.centers_) @ self.weights_
             part += block @ self.polynomial_[1:]
             part += self.polynomial_[0]

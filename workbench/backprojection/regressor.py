@@ -13,7 +13,7 @@ from sklearn.utils import get_tags
 from sklearn.utils.validation import check_is_fitted, validate_data
 
 
-class RegressorBackProjector(MultiOutputMixin, RegressorMixin, BaseEstimator):  # type: ignore[misc]  # sklearn is untyped
+class RegressorBackProjector(MultiOutputMixin, RegressorMixin, BaseEstimator):
     """Rebuild samples with a scikit-learn regressor.
 
     Regressors that predict a single number, gradient boosting for instance, are fitted
@@ -56,14 +56,16 @@ class RegressorBackProjector(MultiOutputMixin, RegressorMixin, BaseEstimator):  
         RegressorBackProjector
             Itself.
         """
-        X, y = validate_data(self, X, y, multi_output=True, y_numeric=True, dtype=np.float64)
+        points, targets = validate_data(
+            self, X, y, multi_output=True, y_numeric=True, dtype=np.float64
+        )
         if self.regressor is None:
-            regressor = KNeighborsRegressor(n_neighbors=min(5, len(X)))
+            regressor = KNeighborsRegressor(n_neighbors=min(5, len(points)))
         else:
             regressor = clone(self.regressor)
-        if np.ndim(y) == 2 and not get_tags(regressor).target_tags.multi_output:
+        if np.ndim(targets) == 2 and not get_tags(regressor).target_tags.multi_output:
             regressor = MultiOutputRegressor(regressor)
-        self.regressor_ = regressor.fit(X, y)
+        self.regressor_ = regressor.fit(points, targets)
         return self
 
     def predict(self, X: ArrayLike) -> NDArray[np.float64]:
@@ -79,5 +81,5 @@ class RegressorBackProjector(MultiOutputMixin, RegressorMixin, BaseEstimator):  
         ndarray of shape (n_points, n_outputs), or (n_points,) if fitted so
         """
         check_is_fitted(self)
-        X = validate_data(self, X, reset=False, dtype=np.float64)
-        return np.asarray(self.regressor_.predict(X), dtype=np.float64)
+        points = validate_data(self, X, reset=False, dtype=np.float64)
+        return np.asarray(self.regressor_.predict(points), dtype=np.float64)

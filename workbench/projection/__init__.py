@@ -62,10 +62,7 @@ def project(
     """
     from sklearn.base import clone
 
-    if isinstance(projector, str):
-        estimator = projectors.create(projector)
-    else:
-        estimator = clone(projector)
+    estimator = projectors.create(projector) if isinstance(projector, str) else clone(projector)
     parameters = estimator.get_params(deep=False)
     if "random_state" in parameters and parameters["random_state"] is None:
         estimator.set_params(random_state=random_state)

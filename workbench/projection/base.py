@@ -11,10 +11,10 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator, TransformerMixin
 from sklearn.utils.validation import validate_data
 
-from workbench.errors import AdjustmentWarning
+from workbench.errors import AdjustmentWarning, WorkbenchError
 
 
-class Projector(TransformerMixin, BaseEstimator):  # type: ignore[misc]  # sklearn is untyped
+class Projector(TransformerMixin, BaseEstimator):
     """The base of projectors: validation, ``fit`` and ``fit_transform``.
 
     A subclass implements ``_project``, which may rely on finite float64 input of at least
@@ -31,7 +31,11 @@ class Projector(TransformerMixin, BaseEstimator):  # type: ignore[misc]  # sklea
     n_components: int
     embedding_: NDArray[np.float64]
 
-    def fit(self, X: ArrayLike, y: Any = None) -> Projector:
+    def fit(
+        self,
+        X: ArrayLike,
+        y: Any = None,  # noqa: ARG002 - scikit-learn's signature
+    ) -> Projector:
         """Project the samples.
 
         Parameters
@@ -50,7 +54,11 @@ class Projector(TransformerMixin, BaseEstimator):  # type: ignore[misc]  # sklea
         self.fit_transform(X)
         return self
 
-    def fit_transform(self, X: ArrayLike, y: Any = None) -> NDArray[np.float64]:
+    def fit_transform(
+        self,
+        X: ArrayLike,
+        y: Any = None,  # noqa: ARG002 - scikit-learn's signature
+    ) -> NDArray[np.float64]:
         """Project the samples and return their positions.
 
         Parameters
@@ -64,10 +72,13 @@ class Projector(TransformerMixin, BaseEstimator):  # type: ignore[misc]  # sklea
         -------
         ndarray of shape (n_samples, n_components)
         """
-        X = validate_data(self, X, dtype=np.float64, ensure_min_samples=2)
-        if getattr(self, "metric", None) == "precomputed" and X.shape[0] != X.shape[1]:
-            raise ValueError(f"X: got shape {X.shape}, want a square matrix of distances")
-        self.embedding_ = np.asarray(self._project(X), dtype=np.float64)
+        samples: NDArray[np.float64] = validate_data(
+            self, X, dtype=np.float64, ensure_min_samples=2
+        )
+        precomputed = getattr(self, "metric", None) == "precomputed"
+        if precomputed and samples.shape[0] != samples.shape[1]:
+            raise WorkbenchError(f"X: got shape {samples.shape}, want a square distance matrix")
+        self.embedding_ = np.asarray(self._project(samples), dtype=np.float64)
         return self.embedding_
 
     @abstractmethod

@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.manifold import Isomap as SklearnIsomap  # noqa: N811 - the same name is meant
+from sklearn.manifold import Isomap as SklearnIsomap
 
 from workbench.errors import DegenerateDataWarning
 from workbench.projection.base import Projector

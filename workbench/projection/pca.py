@@ -57,5 +57,5 @@ class PCA(Projector):
         ndarray of shape (n_samples, n_components)
         """
         check_is_fitted(self)
-        X = validate_data(self, X, dtype=np.float64, reset=False)
-        return (X - self.mean_) @ self.components_.T
+        samples: NDArray[np.float64] = validate_data(self, X, dtype=np.float64, reset=False)
+        return (samples - self.mean_) @ self.components_.T
