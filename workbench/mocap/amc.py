@@ -13,7 +13,7 @@ from workbench.errors import MotionFormatError
 from workbench.mocap.asf import AcclaimSkeleton, fixed_axis_rotations, read_asf
 from workbench.mocap.motion import Motion
 from workbench.mocap.number_rows import scan_numbers
-from workbench.mocap.textfile import lines_of, parse_number, quoted, read_text_bytes
+from workbench.mocap.textfile import lines_of, parse_number, quoted, read_text_bytes, words_of
 
 #: AMC files do not tell their rate; the CMU database was published at 120 frames a second.
 CMU_FRAME_TIME = 1.0 / 120.0
@@ -184,7 +184,7 @@ class _AmcReader:
         frame: _Frame | None = None
         for text, _ in lines_of(data):
             self.line += 1
-            words = text.split() if "#" not in text else text.partition("#")[0].split()
+            words = words_of(text)
             if not words:
                 continue
             name = words[0]

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from workbench.errors import MotionFormatError
 from workbench.mocap.rotations import rotations_from_euler
 from workbench.mocap.skeleton import POSITION_CHANNELS, EndSite, Skeleton
-from workbench.mocap.textfile import lines_of, parse_number, quoted, read_text_bytes
+from workbench.mocap.textfile import lines_of, parse_number, quoted, read_text_bytes, words_of
 
 _CM_PER_INCH = 2.54
 _ROOT_DOFS = ("tx", "ty", "tz", "rx", "ry", "rz")
@@ -126,7 +126,7 @@ class _AsfParser:
         """Yield the words of each line that is neither blank nor a comment."""
         for text, _ in lines_of(data):
             self.line += 1
-            words = text.partition("#")[0].split()
+            words = words_of(text)
             if words:
                 yield words
 

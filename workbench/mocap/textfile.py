@@ -75,6 +75,18 @@ def lines_of(data: bytes, start: int = 0) -> Iterator[tuple[str, int]]:
         yield line.strip(), start
 
 
+def words_of(line: str) -> list[str]:
+    """Split a line into words, without the comment after a ``#`` that begins a word.
+
+    Inside of a word it is none: "-1.#IND" is a broken number, not "-1." with a remark.
+    """
+    words = line.split()
+    if "#" in line:
+        comment = next((i for i, word in enumerate(words) if word[0] == "#"), len(words))
+        del words[comment:]
+    return words
+
+
 def parse_number(text: str) -> float | None:
     """Read a finite decimal number, or tell by None that it is not one.
 
