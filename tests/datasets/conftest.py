@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from workbench.datasets.entries import Download, Entry, Source
+from workbench.datasets.search import user_folders
 
 
 @pytest.fixture
@@ -94,3 +95,12 @@ def served() -> Served:
         return replace(entry, downloads=(Download(target, sources),))
 
     return copy
+
+
+@pytest.fixture
+def shared_data() -> Path:
+    """Give the folder of data that are not bundled, or skip the test and say why."""
+    folders = [folder for folder in user_folders() if (folder / "uci" / "seeds.data").is_file()]
+    if not folders:
+        pytest.skip("needs a folder with uci/seeds.data and the rest named by WORKBENCH_DATA")
+    return folders[0]

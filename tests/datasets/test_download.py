@@ -109,7 +109,7 @@ def test_trickling_server_is_given_up(
 ) -> None:
     """A server that never stalls but never ends is left after the given time."""
     server.pages["/yeast.data"] = YEAST
-    server.slow["/yeast.data"] = 1.0
+    server.slow["/yeast.data"] = 0.3
     with pytest.raises(DataError, match="took too long"):
         download(served(yeast, f"{server.address}/yeast.data"), cache, seconds=0.2)
     assert leftovers(cache) == []

@@ -307,6 +307,8 @@ def _refuse_label(label: str | None, source: str | Path) -> None:
 
 
 def _exists(source: str) -> bool:
+    if not source:  # which Path takes for the current folder
+        return False
     try:
         return Path(source).expanduser().exists()
     except (OSError, RuntimeError):  # too long for a path, or a home folder of nobody
@@ -317,10 +319,12 @@ def _unknown(source: str) -> str:
     """Say that there is no such data set or file, and what may have been meant."""
     if len(Path(source).suffix) > 1:
         return f"{source}: there is no such file"
-    names = [*_registered.names(), *entries()]
-    close = difflib.get_close_matches(source, names, n=3, cutoff=0.6)
-    close += [name for name in names if source and name.endswith(f"/{source}")]
-    hint = f"did you mean {' or '.join(dict.fromkeys(close))}? " if close else ""
+    names = {name.lower(): name for name in (*_registered.names(), *entries())}
+    meant = source.lower()
+    close = difflib.get_close_matches(meant, names, n=3, cutoff=0.6)
+    close += [name for name in names if meant and name.endswith(f"/{meant}")]
+    offered = " or ".join(dict.fromkeys(names[name] for name in close))
+    hint = f"did you mean {offered}? " if offered else ""
     return (
         f"no data set or file is called {source!r}; {hint}`workbench datasets list` shows all names"
     )
