@@ -25,11 +25,15 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
 )
 app.add_typer(data.app, name="datasets", help="List, fetch and check data sets.")
-app.command()(methods.project)
-app.command()(methods.keyframes)
-app.command()(methods.compact)
-app.command()(reproduction.reproduce)
-app.command()(serve.lab)
+for command, summary in (
+    (methods.project, "Project a table or a motion to the plane."),
+    (methods.keyframes, "Select keyframes of a motion."),
+    (methods.compact, "Keep keyframes, rebuild the rest, measure the loss."),
+    (reproduction.reproduce, "Regenerate figures and tables of the theses."),
+    (serve.lab, "Open the notebooks in JupyterLab."),
+    (serve.app, "Serve the dashboards with Voila."),
+):
+    app.command(short_help=summary)(command)
 
 
 @app.callback(invoke_without_command=True)

@@ -1,0 +1,244 @@
+"""Tests of the command line, as a person or a script uses it."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+
+import pandas as pd
+import pytest
+
+from tests.conftest import find_clip
+from workbench.cli import main
+
+PROJECT_REPORT = {
+    "stress",
+    "scale_normalized_stress",
+    "trustworthiness",
+    "continuity",
+    "neighborhood_preservation",
+    "k",
+    "reconstruction_error",
+    "relative_reconstruction_error",
+    "seconds",
+}
+
+
+@pytest.fixture
+def run(monkeypatch, capsys):
+    """Run the command line in this process; give status, standard output and error."""
+
+    def call(*words):
+        monkeypatch.setattr(sys, "argv", ["workbench", *map(str, words)])
+        with pytest.raises(SystemExit) as ending:
+            main()
+        captured = capsys.readouterr()
+        return ending.value.code, captured.out, captured.err
+
+    return call
+
+
+@pytest.fixture
+def table(tmp_path):
+    """Give a small CSV file of a user's own."""
+    path = tmp_path / "own.csv"
+    rows = [f"{i},{i * i % 17},{i % 5},{'ab'[i % 2]}" for i in range(40)]
+    path.write_text("first,second,third,kind\n" + "\n".join(rows))
+    return path
+
+
+def test_help_names_what_exists_and_nothing_else(run):
+    """Every command has a line; methods of later versions are not offered."""
+    status, out, _ = run("--help")
+    assert status == 0
+    for command in ("datasets", "project", "keyframes", "compact", "reproduce", "lab", "app"):
+        assert f"\n  {command} " in out
+    _, out, _ = run("project", "--help")
+    assert "pca, mds, isomap, lle, tsne, umap" in " ".join(out.split())
+    assert "lamp" not in out
+
+
+def test_project_reports_the_documented_values(run):
+    """--json prints one object with exactly these names."""
+    status, out, err = run("project", "uci/iris", "--projector", "pca", "--json")
+    values = json.loads(out)
+    assert status == 0
+    assert set(values) == PROJECT_REPORT
+    assert values["k"] == 10
+    assert 0.97 < values["trustworthiness"] < 0.99
+    assert 0 < values["relative_reconstruction_error"] < 1
+    assert err == ""
+
+
+def test_optimizing_lowers_the_reported_error(run):
+    """--optimize and --optimizer alg12 mean the same and help."""
+    errors = [
+        json.loads(run("project", "uci/wine", "--standardize", "--json", *more)[1])[
+            "reconstruction_error"
+        ]
+        for more in ([], ["--optimize"], ["--optimizer", "alg12"])
+    ]
+    assert errors[1] < 0.95 * errors[0]
+    assert errors[1] == errors[2]
+
+
+def test_own_tables_work_and_treatments_are_said(run, table, tmp_path):
+    """A user's CSV is projected and written with its labels; notes are lines on stderr."""
+    out_file = tmp_path / "plane.csv"
+    status, out, err = run(
+        "project", table, "--label", "kind", "--projector", "tsne", "--out", out_file
+    )
+    assert status == 0
+    assert "trustworthiness" in out
+    assert "perplexity=50.0 lowered to 13" in err
+    assert all(line.startswith("workbench: note: ") for line in err.splitlines())
+    written = pd.read_csv(out_file)
+    assert list(written) == ["x", "y", "control_point", "error", "label"]
+    assert len(written) == 40
+    assert written["control_point"].sum() == 3
+    assert set(written["label"]) == {"a", "b"}
+
+
+def test_keyframes_and_compact_on_a_bundled_clip(run):
+    """Selection and temporal reconstruction of a clip that every installation has."""
+    status, out, _ = run("keyframes", "cmu/01_01", "--count", 5, "--json")
+    frames = json.loads(out)["frames"]
+    assert status == 0
+    assert (len(frames), frames[0], frames[-1]) == (5, 0, 2750)
+    status, out, _ = run("compact", "cmu/01_01", "--interpolator", "slerp", "--json")
+    values = json.loads(out)
+    assert status == 0
+    assert set(values) == {
+        "keyframes",
+        "error_per_frame_per_joint",
+        "position_error",
+        "position_error_cm",
+        "compression_ratio",
+        "evaluations",
+        "seconds",
+    }
+    assert len(values["keyframes"]) == 82
+    assert values["position_error_cm"] == pytest.approx(values["position_error"] * 2.54 / 0.45)
+    assert values["compression_ratio"] == pytest.approx(100 / 6.04, rel=0.01)
+    assert values["evaluations"] == 0
+
+
+def test_the_main_result_of_the_thesis(run):
+    """On 05_10 at 3 % optimized t-SNE reaches 0.34 ± 0.02 where slerp reaches 0.41 ± 0.01."""
+    find_clip("05_10")
+    common = ["compact", "cmu/05_10", "--selector", "uniform", "--ratio", 0.03, "--json"]
+    spatial = json.loads(run(*common, "--projector", "tsne", "--optimize")[1])
+    temporal = json.loads(run(*common, "--interpolator", "slerp")[1])
+    assert spatial["error_per_frame_per_joint"] == pytest.approx(0.34, abs=0.02)
+    assert temporal["error_per_frame_per_joint"] == pytest.approx(0.41, abs=0.01)
+    assert spatial["evaluations"] > 10_000
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (["project"], "Missing argument"),
+        (["nonsense"], "No such command 'nonsense'"),
+        (["project", "uci/iriss"], "did you mean uci/iris"),
+        (["project", "nowhere.csv"], "nowhere.csv"),
+        (["project", "uci/iris", "--projector", "foo"], "projector: got 'foo', want one of pca"),
+        (["project", "uci/iris", "--optimizer", "foo"], "optimizer: got 'foo'"),
+        (["project", "uci/iris", "--control-points", "foo"], "selector: got 'foo'"),
+        (["project", "uci/iris", "--back-projector", "foo"], "back-projector: got 'foo'"),
+        (
+            ["project", "uci/iris", "--back-projector", "spatial-keyframes"],
+            "which rebuilds poses",
+        ),
+        (["project", "uci/iris", "--ratio", "2"], "ratio: got 2.0"),
+        (["project", "uci/iris", "--count", "150"], "want from 2 to 149"),
+        (["project", "uci/iris", "--count", "5", "--ratio", "0.1"], "got both"),
+        (["project", "uci/iris", "--seed", "x"], "--seed"),
+        (["project", "uci/iris", "--out", "plane.txt"], ".csv or .parquet"),
+        (["project", "uci/iris", "--out", "/no/such/folder/plane.csv"], "there is no folder"),
+        (["compact", "uci/iris", "--projector", "pca"], "got a table, want a motion"),
+        (["compact", "cmu/01_01"], "exactly one of --interpolator and --projector"),
+        (
+            ["compact", "cmu/01_01", "--interpolator", "slerp", "--optimize"],
+            "want it with --projector",
+        ),
+        (["keyframes", "uci/iris"], "want a motion"),
+        (["datasets", "check", "uci/none"], "uci/none"),
+        (["reproduce", "costa2018:fig9.9"], "costa2018:fig9.9"),
+        (["reproduce", "--profile", "huge"], "huge"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_wrong_input_is_one_line_and_status_2(run, words, message):
+    """The line on standard error says what is wrong; standard output stays empty."""
+    status, out, err = run(*words)
+    assert status == 2
+    assert out == ""
+    assert err.startswith("workbench: error: ")
+    assert err.count("\n") == 1
+    assert message in err
+
+
+def test_damaged_motion_files_are_located(run, tmp_path):
+    """A broken BVH file gives file, line, what was found and what was expected."""
+    broken = tmp_path / "broken.bvh"
+    broken.write_text("HIERARCHY\nROOT hips\n{\n OFFSET 0 0 zero\n")
+    status, _, err = run("keyframes", broken)
+    assert status == 2
+    assert "broken.bvh, line 4: found" in err
+    assert "expected" in err
+
+
+def test_data_sets_are_listed_and_checked(run):
+    """The catalogue lists every bundled set, and their content is what it should be."""
+    status, out, _ = run("datasets", "list", "--json")
+    names = [entry["name"] for entry in json.loads(out)["datasets"]]
+    assert status == 0
+    bundled = ["uci/iris", "uci/wine", "uci/yeast", "uci/ionosphere", "cmu/01_01", "cmu/01_03"]
+    assert set(bundled) <= set(names)
+    status, out, _ = run("datasets", "check", *bundled)
+    assert status == 0
+    assert out.splitlines() == [f"{name}: good" for name in bundled]
+
+
+def test_figures_are_listed(run, tmp_path):
+    """Listing by reproduce --list --json gives an id, a notebook and a state for each."""
+    status, out, _ = run("reproduce", "--list", "--json", "--out", tmp_path)
+    items = json.loads(out)["items"]
+    assert status == 0
+    assert {"costa2018:fig5.3", "costa2018:tab5.1"} <= {item["id"] for item in items}
+    assert all(set(item) == {"id", "notebook", "state"} for item in items)
+
+
+def test_heavy_packages_are_not_imported_for_help():
+    """umap, plotly, numba, scipy and jupyter are imported when they are used."""
+    code = (
+        "import sys, workbench.cli\n"
+        "heavy = 'umap plotly numba scipy sklearn pandas pyarrow IPython papermill rich'.split()\n"
+        "print([name for name in heavy if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout.strip() == "[]"
+
+
+def test_compiling_is_said_once_and_only_when_it_happens(tmp_path):
+    """A first call with an empty kernel cache says so on stderr; the next one is silent."""
+    words = [sys.executable, "-m", "workbench", "compact", "cmu/01_01-jump", "--json"]
+    words += ["--interpolator", "slerp", "--count", "5"]
+    environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
+    first, second = (
+        subprocess.run(words, check=True, capture_output=True, text=True, env=environment)
+        for _ in range(2)
+    )
+    assert first.stderr.count("compiling") == 1
+    assert second.stderr == ""
+    assert json.loads(first.stdout)["keyframes"] == json.loads(second.stdout)["keyframes"]
+
+
+def test_unread_output_ends_quietly():
+    """Piping into a reader that stops early gives no traceback."""
+    words = f"{sys.executable} -m workbench datasets list | head -1"
+    done = subprocess.run(words, shell=True, capture_output=True, text=True, check=True)
+    assert done.stdout.startswith("uci/iris")
+    assert done.stderr == ""
