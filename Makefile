@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 REPORT := reproduction
 
 .DEFAULT_GOAL := help
-.PHONY: help setup reproduce test check lab format screenshots clean
+.PHONY: help setup reproduce test check wheel lab format screenshots clean
 
 help: ## Say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 20
@@ -31,6 +31,9 @@ check: $(VENV)/installed ## Check style, types, imports and notebooks
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python tests/check_notebooks.py notebooks
+
+wheel: ## Build the wheel and use it in a clean environment
+	tests/packaging/check_wheel.sh $(PYTHON)
 
 format: $(VENV)/installed ## Format the code
 	$(BIN)/ruff check --fix .

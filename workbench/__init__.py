@@ -10,7 +10,6 @@ True
 from __future__ import annotations
 
 from importlib import import_module
-from importlib.metadata import PackageNotFoundError, version
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -31,11 +30,6 @@ if TYPE_CHECKING:
     from workbench.schemes import SpatialScheme, TemporalScheme
     from workbench.selection import register_selector
     from workbench.spaces import PoseSpace, VectorSpace
-
-try:
-    __version__ = version("workbench")
-except PackageNotFoundError:  # a source folder on the path, not installed
-    __version__ = "0+unknown"
 
 # Names are imported when first used, so that `import workbench` stays fast.
 _HOMES = {
@@ -94,9 +88,15 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
+    if name == "__version__":
+        # Reading the metadata imports a mail parser, which takes longer than all the rest.
+        from importlib.metadata import version
+
+        value = version("workbench")
+    elif name in _HOMES:
+        value = getattr(import_module(f"workbench.{_HOMES[name]}"), name)
+    else:
         raise AttributeError(f"module 'workbench' has no attribute {name!r}")
-    value = getattr(import_module(f"workbench.{_HOMES[name]}"), name)
     globals()[name] = value
     return value
 
