@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from workbench.errors import WorkbenchError
 
 
-class ArrayTrait(traitlets.TraitType):  # type: ignore[misc]  # traitlets is untyped here
+class ArrayTrait(traitlets.TraitType):
     """An array of one data type, little-endian and read-only.
 
     Read-only, because a change in place would never reach the browser. The browser gets the

@@ -9,7 +9,7 @@ from workbench.widgets.arrays import ArrayTrait
 from workbench.widgets.module import es_module, style_sheet
 
 
-class SampleDetails(anywidget.AnyWidget):  # type: ignore[misc]  # anywidget is untyped
+class SampleDetails(anywidget.AnyWidget):
     """List the feature values of the hovered row, each with its place in the column's range.
 
     Attributes

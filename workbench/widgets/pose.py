@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
 
 import anywidget
 import traitlets
@@ -11,10 +10,8 @@ import traitlets
 from workbench.widgets.arrays import ArrayTrait
 from workbench.widgets.module import es_module, style_sheet
 
-Side = Literal["left", "right", "middle"]
 
-
-class PoseView(anywidget.AnyWidget):  # type: ignore[misc]  # anywidget is untyped
+class PoseView(anywidget.AnyWidget):
     """Draw one frame of a motion as a stick figure.
 
     The browser gets the positions of all frames once, so that a hovered frame is drawn
@@ -47,7 +44,7 @@ class PoseView(anywidget.AnyWidget):  # type: ignore[misc]  # anywidget is untyp
     channel = traitlets.Unicode("").tag(sync=True)
 
 
-def joint_sides(names: Sequence[str]) -> list[Side]:
+def joint_sides(names: Sequence[str]) -> list[str]:
     """Tell left from right joints by their names.
 
     A joint is on the left if exchanging left for right gives the name of another joint
@@ -72,7 +69,7 @@ def joint_sides(names: Sequence[str]) -> list[Side]:
     return [_side(name.lower(), known) for name in names]
 
 
-def _side(name: str, known: set[str]) -> Side:
+def _side(name: str, known: set[str]) -> str:
     for own, other, side in (("l", "r", "left"), ("r", "l", "right")):
         words = {"l": "left", "r": "right"}
         mirrored = {name.replace(words[own], words[other])}
@@ -82,7 +79,7 @@ def _side(name: str, known: set[str]) -> Side:
             if letter == own and _stands_for_a_side(name, place)
         }
         if (mirrored - {name}) & known:
-            return side  # type: ignore[return-value]  # one of the two names above
+            return side
     return "middle"
 
 

@@ -9,7 +9,7 @@ from workbench.widgets.arrays import ArrayTrait, SelectionTrait
 from workbench.widgets.module import es_module, style_sheet
 
 
-class ScatterPanels(anywidget.AnyWidget):  # type: ignore[misc]  # anywidget is untyped
+class ScatterPanels(anywidget.AnyWidget):
     """Show several embeddings of the same samples side by side.
 
     What is marked or hovered in one panel is marked in all; this happens in the browser.

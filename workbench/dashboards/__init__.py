@@ -1,0 +1,27 @@
+"""Applications for notebooks: they hold state and show it; no algorithm lives here."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from workbench.dashboards.compare import ProjectionComparison, compare_projections
+    from workbench.dashboards.session import Panel
+
+_HOMES = {
+    "Panel": "session",
+    "ProjectionComparison": "compare",
+    "compare_projections": "compare",
+}
+
+__all__ = ["Panel", "ProjectionComparison", "compare_projections"]
+
+
+# The process that computes beside the kernel imports this package too, and must not wait
+# for plotly and ipywidgets.
+def __getattr__(name: str) -> Any:
+    from importlib import import_module
+
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(f"{__name__}.{_HOMES[name]}"), name)

@@ -1,0 +1,148 @@
+"""Compute beside the kernel, so that it answers meanwhile and any computation can be ended.
+
+A process and not a thread: compiled code holds the interpreter for seconds, numba's loops
+must not be entered from two threads at once, and a projection that is under way can only be
+ended together with its process.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import multiprocessing
+import os
+import weakref
+from collections.abc import Callable
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from typing import Any
+
+from workbench.errors import WorkbenchError
+
+#: Takes what is going on in words, and how much of it is done (0 to 1, None if unknown).
+Report = Callable[[str, float | None], None]
+
+_PAUSE = 0.03  # seconds between two looks at the pipe
+
+
+class Stopped(Exception):  # noqa: N818 - no error: someone wanted it
+    """Signal that the computation was ended on purpose."""
+
+
+class Background:
+    """An object that lives in a process of its own.
+
+    Its methods are called with ``report=``, a :data:`Report`, beside their arguments. The
+    process starts with the first call and ends with the kernel at the latest.
+
+    Parameters
+    ----------
+    factory : callable
+        Makes the object there; an importable class or function.
+    """
+
+    def __init__(self, factory: Callable[[], Any]) -> None:
+        self._factory = factory
+        self._process: BaseProcess | None = None
+        self._connection: Connection | None = None
+
+    async def call(self, method: str, *args: Any, report: Report) -> Any:
+        """Call a method of the object and wait without blocking the kernel.
+
+        Parameters
+        ----------
+        method : str
+            Name of the method.
+        *args : object
+            Its arguments; classes and functions of a notebook's cells travel too.
+        report : callable
+            Gets what the method reports.
+
+        Returns
+        -------
+        object
+            What the method returns.
+
+        Raises
+        ------
+        Stopped
+            If :meth:`stop` was called meanwhile.
+        WorkbenchError
+            If the method failed, or its process ended by itself.
+        """
+        # Unlike pickle it can send what a notebook's cell defines.
+        import cloudpickle  # type: ignore[import-untyped]  # it has no type information
+
+        try:
+            request = cloudpickle.dumps((method, args))
+        except Exception as error:  # any object may refuse to be sent, in its own way
+            raise WorkbenchError(f"cannot be computed beside the kernel: {error}") from error
+        process, connection = self._started()
+        try:
+            connection.send_bytes(request)
+            while True:
+                while not connection.poll():
+                    await asyncio.sleep(_PAUSE)
+                kind, value = connection.recv()
+                if process is not self._process:
+                    raise Stopped
+                if kind == "report":
+                    report(*value)
+                elif kind == "failed":
+                    raise WorkbenchError(value)
+                else:
+                    return value
+        except (EOFError, OSError) as error:
+            if process is not self._process:
+                raise Stopped from None
+            self.stop()
+            raise WorkbenchError(
+                "the computation ended by itself; the data may need more memory than there is"
+            ) from error
+
+    def stop(self) -> None:
+        """End the process with whatever it is doing; the next call starts another."""
+        process, self._process, self._connection = self._process, None, None
+        if process is not None:
+            process.kill()
+
+    def _started(self) -> tuple[BaseProcess, Connection]:
+        if self._process is None or self._connection is None or not self._process.is_alive():
+            # A fresh interpreter: copies of a kernel's threads and locks would hang.
+            context = multiprocessing.get_context("spawn")
+            ours, theirs = context.Pipe()
+            process = context.Process(target=_serve, args=(theirs, self._factory), daemon=True)
+            process.start()
+            theirs.close()
+            self._process, self._connection = process, ours
+            weakref.finalize(self, process.kill)
+        return self._process, self._connection
+
+
+def _serve(connection: Connection, factory: Callable[[], Any]) -> None:
+    """Answer calls until the other end is gone."""
+    # Read when the first compiled loop is loaded. Threads that spin while they wait make
+    # t-SNE seven times slower as soon as something else wants a core.
+    os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+    import cloudpickle
+
+    served: Any = None
+
+    def report(text: str, done: float | None = None) -> None:
+        connection.send(("report", (text, done)))
+
+    while True:
+        try:
+            request = connection.recv_bytes()
+        except EOFError:
+            return
+        try:
+            method, args = cloudpickle.loads(request)
+            served = served or factory()
+            answer = ("done", getattr(served, method)(*args, report=report))
+        except BrokenPipeError:
+            return
+        except WorkbenchError as error:
+            answer = ("failed", str(error))
+        except Exception as error:  # a user's own method may fail in any way
+            answer = ("failed", f"{type(error).__name__}: {error}")
+        connection.send(answer)

@@ -1,0 +1,200 @@
+"""What the projection comparison shows, and how it is laid out."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+from dataclasses import dataclass
+from html import escape
+
+import ipywidgets as widgets
+import numpy as np
+
+from workbench.dashboards.controls import Controls
+from workbench.dashboards.quality_view import QualityView
+from workbench.dashboards.session import PanelResult, Summary
+from workbench.widgets import PoseView, SampleDetails, ScatterPanels, joint_sides
+
+_channels = itertools.count(1)
+_ALERT = (
+    '<div role="alert" style="border-left: 4px solid var(--jp-error-color1, #b71c1c); '
+    'padding: 2px 8px; line-height: 1.4"><b>{name}</b>: {words}{kept}</div>'
+)
+
+
+@dataclass(frozen=True, eq=False)
+class PanelState:
+    """What there is to show in one panel.
+
+    Attributes
+    ----------
+    title : str
+        What the panel shows.
+    result : PanelResult or None
+        None as long as it is not there.
+    failure : str
+        Why it is not there, in plain words; empty while it is still to come.
+    """
+
+    title: str
+    result: PanelResult | None
+    failure: str = ""
+
+
+class ComparisonView:
+    """The views of the projection comparison around its controls.
+
+    Parameters
+    ----------
+    controls : Controls
+        What can be chosen.
+
+    Attributes
+    ----------
+    root : ipywidgets.Widget
+        All of it.
+    scatter : ScatterPanels
+        The panels.
+    pose : PoseView
+        The hovered frame; hidden for tables.
+    details : SampleDetails
+        The hovered row; hidden for motions.
+    quality : QualityView
+        Quality values.
+    cancel, again : ipywidgets.Button
+        To end a computation and to repeat it.
+    """
+
+    def __init__(self, controls: Controls) -> None:
+        channel = f"comparison-{next(_channels)}"
+        self.scatter = ScatterPanels(channel=channel)
+        self.pose = PoseView(channel=channel)
+        self.details = SampleDetails(channel=channel)
+        self.quality = QualityView()
+        self.scatter.observe(lambda change: self.quality.use_theme(change["new"]), "theme")
+        self.cancel = widgets.Button(description="Cancel", icon="stop")
+        self.again = widgets.Button(
+            description="Compute again",
+            tooltip="Compute what failed or was cancelled, or else all panels anew",
+        )
+        self._bar = widgets.FloatProgress(min=0, max=1, layout=widgets.Layout(width="200px"))
+        self._doing = widgets.HTML()
+        self._message = widgets.HTML()
+        self.root = self._laid_out(controls)
+
+    def show_samples(self, summary: Summary) -> None:
+        """Show other samples; the panels are empty until they have embeddings."""
+        scatter, body = self.scatter, summary.body
+        with scatter.hold_sync():
+            scatter.selection = []
+            scatter.points = []
+            scatter.control_points = []
+            scatter.classes = summary.classes
+            scatter.class_names = summary.class_names
+            scatter.sample_word = "frame" if body else "sample"
+        self.pose.layout.display = None if body else "none"
+        self.details.layout.display = "none" if body else None
+        if body:
+            with self.pose.hold_sync():
+                self.pose.parents, self.pose.sides = body.parents, joint_sides(body.names)
+                self.pose.frame_time, self.pose.frame = body.frame_time, 0
+                self.pose.positions = body.positions
+            return
+        with self.details.hold_sync():
+            self.details.columns = summary.columns
+            self.details.classes = summary.classes
+            self.details.class_names = summary.class_names
+            self.details.values = summary.values
+
+    def show_panels(self, n_samples: int, states: Sequence[PanelState]) -> None:
+        """Show what the panels have so far."""
+        results = [state.result for state in states]
+        points = np.full((len(states), n_samples, 2), np.nan, dtype=np.float32)
+        for place, result in zip(points, results, strict=True):
+            if result is not None:
+                place[:] = result.embedding
+        controls = next((r.control_points for r in results if r is not None), np.empty(0, int))
+        with self.scatter.hold_sync():
+            # Sent only if they changed: a busy panel reports often, and points are many.
+            if not np.array_equal(self.scatter.points, points, equal_nan=True):
+                self.scatter.points = points
+            if not np.array_equal(self.scatter.control_points, controls):
+                self.scatter.control_points = controls
+            self.scatter.panels = [_panel(state) for state in states]
+        self.quality.show([state.title for state in states], results)
+
+    def show_progress(self, text: str, done: float) -> None:
+        """Say what is being computed, and how much of everything is done (0 to 1)."""
+        self._bar.value = done
+        self._doing.value = f'<span role="status">{escape(text)} …</span>'
+
+    def show_busy(self, busy: bool) -> None:
+        """Show or hide the progress; hidden, it keeps its place so that nothing jumps."""
+        for part in (self._bar, self._doing, self.cancel):
+            part.layout.visibility = "visible" if busy else "hidden"
+        self.again.disabled = busy
+        if not busy:
+            self.show_progress("", 0.0)
+
+    def show_message(
+        self, summary: Summary | None, notes: Sequence[str], wanted: str, failure: str
+    ) -> None:
+        """Say what the samples are, how they were treated, and what could not be loaded."""
+        lines = []
+        if failure:
+            kept = f"; still shown: {summary.name}" if summary else ""
+            lines.append(
+                _ALERT.format(name=escape(wanted), words=escape(failure), kept=escape(kept))
+            )
+        if summary is not None:
+            text = "; ".join([_content(summary), *summary.notes, *notes])
+            lines.append(
+                f'<div style="line-height: 1.4"><b>{escape(summary.name)}</b>: {escape(text)}</div>'
+            )
+        self._message.value = "".join(lines)
+
+    def _laid_out(self, controls: Controls) -> widgets.Widget:
+        self.scatter.layout = widgets.Layout(flex="1 1 600px", min_width="0")
+        for view in (self.pose, self.details):
+            view.layout = widgets.Layout(flex="1 1 250px", min_width="0", display="none")
+        row = {"flex_flow": "row wrap", "grid_gap": "8px 16px", "align_items": "flex-start"}
+        progress = widgets.Box(
+            [self.again, self.cancel, self._bar, self._doing],
+            layout=widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="4px 8px"),
+        )
+        table = widgets.Box([self.quality.table], layout=widgets.Layout(flex="1 1 420px"))
+        curves = widgets.Box(
+            [self.quality.figure], layout=widgets.Layout(flex="1 1 380px", min_width="0")
+        )
+        views = [self.scatter, self.pose, self.details]
+        return widgets.VBox(
+            [
+                controls.view,
+                progress,
+                self._message,
+                widgets.Box(views, layout=widgets.Layout(**row)),
+                widgets.Box([table, curves], layout=widgets.Layout(**row)),
+            ],
+            layout=widgets.Layout(width="100%"),
+        )
+
+
+def _panel(state: PanelState) -> dict[str, str]:
+    if state.result is not None:
+        quality = state.result.quality
+        detail = (
+            f"stress {quality.stress:.3g} · trustworthiness {quality.trustworthiness:.3f} · "
+            f"error {state.result.error:.3g}"
+        )
+        return {"title": state.title, "detail": detail, "state": "ready"}
+    if state.failure:
+        return {"title": state.title, "message": state.failure, "state": "failed"}
+    return {"title": state.title, "message": "computing …", "state": "busy"}
+
+
+def _content(summary: Summary) -> str:
+    if summary.body:
+        joints = len(set(summary.body.names))
+        return f"{summary.n_samples} frames, {joints} joints"
+    classes = f", {len(summary.class_names)} classes" if summary.class_names else ""
+    return f"{summary.n_samples} samples, {summary.n_features} features{classes}"
