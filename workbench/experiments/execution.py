@@ -1,0 +1,166 @@
+"""Execute runs on one space, computing what they share only once."""
+
+from __future__ import annotations
+
+import platform
+import time
+import warnings
+from dataclasses import asdict, dataclass
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from workbench import __version__
+from workbench.experiments.runs import Run, scheme_name
+from workbench.experiments.store import Arrays, Row
+from workbench.projection import project
+from workbench.quality.summary import EmbeddingQuality, embedding_quality
+from workbench.schemes import Result, SpatialResult, SpatialScheme
+from workbench.spaces import Space
+
+_PACKAGES = ("numpy", "scipy", "scikit-learn", "umap-learn", "numba")
+
+
+@dataclass(frozen=True)
+class Projection:
+    """A projection that several runs start from.
+
+    Attributes
+    ----------
+    embedding : ndarray of shape (n_samples, n_components)
+        Scaled to the unit square.
+    quality : EmbeddingQuality
+        Its quality, before any optimization.
+    seconds : float
+        Time taken to project, without that of the distance matrix.
+    warnings : tuple of str
+        What the projector warned of.
+    """
+
+    embedding: NDArray[np.float64]
+    quality: EmbeddingQuality
+    seconds: float
+    warnings: tuple[str, ...]
+
+
+class SharedSteps:
+    """Distances and projections, computed once for all runs on a space.
+
+    Raw and optimized schemes start from the same projection, so their results differ by the
+    optimizer alone.
+
+    Parameters
+    ----------
+    space : Space
+        The samples.
+    """
+
+    def __init__(self, space: Space) -> None:
+        self.space = space
+        self._distance_seconds: float | None = None
+        self._projections: dict[tuple[str, int], Projection] = {}
+
+    def distance_seconds(self) -> float:
+        """Compute the distance matrix, which the space keeps, and tell how long it took."""
+        if self._distance_seconds is None:
+            start = time.perf_counter()
+            _ = self.space.distances
+            self._distance_seconds = time.perf_counter() - start
+        return self._distance_seconds
+
+    def projection(self, projector: str, seed: int) -> Projection:
+        """Project the space, or give the projection that is there already."""
+        key = (projector, seed)
+        if key not in self._projections:
+            with warnings.catch_warnings(record=True) as caught:
+                start = time.perf_counter()
+                embedding = project(self.space, projector, random_state=seed)
+                seconds = time.perf_counter() - start
+            self._projections[key] = Projection(
+                embedding,
+                embedding_quality(self.space.distances, embedding),
+                seconds,
+                tuple(dict.fromkeys(str(warning.message) for warning in caught)),
+            )
+        return self._projections[key]
+
+
+def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
+    """Execute one run.
+
+    Parameters
+    ----------
+    run : Run
+        What to run; its data set is the one of ``shared``.
+    shared : SharedSteps
+        The space and what is known of it already.
+
+    Returns
+    -------
+    row : dict
+        Names of the methods, ``error`` and ``relative_error``, for spatial schemes also
+        the quality of the embedding (``stress``, …), of the projection before optimization
+        (``projected_stress``, …) and their ratios, and what the projector warned of;
+        ``seconds_…`` of each step; versions.
+    arrays : dict of str to ndarray
+        ``errors`` (n_samples,), ``control_points`` (n_control_points,) and, for spatial
+        schemes, ``projected`` and ``embedding`` (n_samples, n_components).
+    """
+    amount: dict[str, Any] = {"ratio": run.ratio, "count": run.count, "random_state": run.seed}
+    seconds: dict[str, float] = {}
+    projection: Projection | None = None
+    result: Result
+    if isinstance(run.scheme, SpatialScheme):
+        seconds["distances"] = shared.distance_seconds()
+        projection = shared.projection(run.scheme.projector, run.seed)
+        seconds["project"] = projection.seconds
+        result = run.scheme.run(shared.space, projected=projection.embedding, **amount)
+    else:
+        result = run.scheme.run(shared.space, **amount)
+    seconds.update(result.timings.steps)
+    row: Row = {
+        **run.specification(),
+        "scheme": scheme_name(run.scheme),
+        "n_samples": len(result.space),
+        "n_control_points": len(result.control_points),
+        "error": result.error,
+        "relative_error": result.relative_error,
+    }
+    arrays: Arrays = {"errors": result.errors, "control_points": result.control_points}
+    if isinstance(result, SpatialResult) and projection is not None:
+        row.update(_spatial_values(result, projection.quality))
+        row["warnings"] = "; ".join(projection.warnings)
+        arrays.update(projected=result.projected, embedding=result.embedding)
+    row.update({f"seconds_{step.replace('-', '_')}": value for step, value in seconds.items()})
+    row["seconds_total"] = sum(seconds.values())
+    row.update({f"version_{name}": value for name, value in versions().items()})
+    return row, arrays
+
+
+def _spatial_values(result: SpatialResult, before: EmbeddingQuality) -> Row:
+    after = before if result.optimization is None else result.quality
+    return {
+        **asdict(after),
+        **{f"projected_{name}": value for name, value in asdict(before).items() if name != "k"},
+        "stress_ratio": after.stress / before.stress,
+        "scale_normalized_stress_ratio": (
+            after.scale_normalized_stress / before.scale_normalized_stress
+        ),
+        "evaluations": result.evaluations,
+        "iterations": result.optimization.iterations if result.optimization else 0,
+    }
+
+
+@cache
+def versions() -> dict[str, str]:
+    """Tell the versions of Python, this package and those that decide numerical results."""
+    found = {"python": platform.python_version(), "workbench": __version__}
+    for package in _PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:  # an optional projector's package may be left out
+            found[package] = "not installed"
+    return found

@@ -1,0 +1,209 @@
+"""Table 5.1 and Figure 5.3 of Costa 2018: reconstruction errors of keyframe schemes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import pandas as pd
+
+from workbench.errors import WorkbenchError
+from workbench.experiments.grid import describe_failures
+from workbench.experiments.published import published
+from workbench.experiments.runs import Run, Scheme, scheme_name
+from workbench.experiments.statistics import boxplot_statistics
+from workbench.figures.boxplots import Box
+from workbench.schemes import SpatialScheme, TemporalScheme
+
+#: Share of the frames that are keyframes.
+RATIO = 0.03
+
+_PROJECTORS = {
+    "Isomap": "isomap",
+    "LLE": "lle",
+    "MDS": "mds",
+    "PCA": "pca",
+    "t-SNE": "tsne",
+    "UMAP": "umap",
+}
+
+#: Temporal schemes of Table 5.1 that exist here, by their names there.
+TEMPORAL: dict[str, Scheme] = {
+    "Linear": TemporalScheme("linear", selector="uniform"),
+    "Slerp": TemporalScheme("slerp", selector="uniform"),
+}
+#: Spatial schemes as projected, and optimized. UMAP is not in the thesis.
+RAW: dict[str, Scheme] = {
+    name: SpatialScheme(projector, selector="uniform") for name, projector in _PROJECTORS.items()
+}
+OPTIMIZED: dict[str, Scheme] = {
+    name: SpatialScheme(projector, selector="uniform", optimizer="alg12")
+    for name, projector in _PROJECTORS.items()
+}
+
+#: Rows of Table 5.1 in its order, and below them what is not in the thesis.
+ORDER = (
+    "Hermitian",
+    "Linear",
+    "Slerp",
+    "1D-RBF",
+    "Force",
+    "Isomap",
+    "LLE",
+    "MDS",
+    "PCA",
+    "t-SNE",
+    "UMAP",
+)
+
+_BOX_COLUMNS = {
+    "W_bot": "whisker_bottom",
+    "Q1": "q1",
+    "Q2": "median",
+    "Q3": "q3",
+    "W_top": "whisker_top",
+    "OL": "n_outliers",
+}
+
+
+def table_5_1_runs(clips: Iterable[str], *, seed: int = 0) -> list[Run]:
+    """List the runs of Table 5.1 and Figure 5.3, and those of the schemes before optimization.
+
+    Parameters
+    ----------
+    clips : iterable of str
+        Names of clips.
+    seed : int
+        Seed of the projectors that take one.
+
+    Returns
+    -------
+    list of Run
+    """
+    schemes = [*TEMPORAL.values(), *RAW.values(), *OPTIMIZED.values()]
+    return [Run(clip, scheme, ratio=RATIO, seed=seed) for clip in clips for scheme in schemes]
+
+
+def errors_by_scheme(table: pd.DataFrame, schemes: dict[str, Scheme]) -> dict[str, pd.Series]:
+    """Gather the errors of the finished runs of each scheme.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+    schemes : dict of str to scheme
+        Such as :data:`OPTIMIZED`.
+
+    Returns
+    -------
+    dict of str to Series
+        Errors by clip; schemes without a finished run are left out.
+    """
+    done = table[table["status"] == "done"]
+    found = {}
+    for name, scheme in schemes.items():
+        rows = done[done["scheme"] == scheme_name(scheme)]
+        if len(rows):
+            found[name] = rows.set_index("dataset")["error"]
+    return found
+
+
+def boxes(table: pd.DataFrame) -> dict[str, Box]:
+    """Compute the boxes of Figure 5.3 from results."""
+    errors = errors_by_scheme(table, {**TEMPORAL, **OPTIMIZED})
+    return {name: boxplot_statistics(values) for name, values in errors.items()}
+
+
+def published_boxes() -> dict[str, Box]:
+    """Give the boxes of Table 5.1 as printed; the outliers' values were not."""
+    rows = published("costa2018:tab5.1").table()
+    return {
+        str(name): Box(**{field: row[column] for column, field in _BOX_COLUMNS.items()})
+        for name, row in rows.iterrows()
+    }
+
+
+def table_5_1(ours: dict[str, Box]) -> pd.DataFrame:
+    """Set our Table 5.1 beside the published one.
+
+    Parameters
+    ----------
+    ours : dict of str to Box
+        From :func:`boxes`.
+
+    Returns
+    -------
+    DataFrame
+        One row per scheme; for each value of the box: ours, published and their difference.
+    """
+    theirs = published_boxes()
+    rows: dict[str, dict[tuple[str, str], Any]] = {}
+    for name in ORDER:
+        row = rows[name] = {}
+        for column, field in _BOX_COLUMNS.items():
+            mine = getattr(ours[name], field) if name in ours else None
+            printed = getattr(theirs[name], field) if name in theirs else None
+            row[column, "ours"] = mine
+            row[column, "published"] = printed
+            row[column, "difference"] = None if mine is None or printed is None else mine - printed
+    table = pd.DataFrame.from_dict(rows, orient="index")
+    table.columns = pd.MultiIndex.from_tuples(list(rows[ORDER[0]]))
+    outliers = [column for column in table.columns if column[0] == "OL"]
+    table[outliers] = table[outliers].astype("Int64")
+    table.index.name = "scheme"
+    return table
+
+
+def medians_against_slerp(table: pd.DataFrame) -> pd.DataFrame:
+    """Compare each spatial scheme, raw and optimized, with slerp on the same clips.
+
+    Medians relative to slerp's can be compared with the thesis although the clips differ.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+
+    Returns
+    -------
+    DataFrame
+        One row per spatial scheme: median error raw and optimized, the optimized one
+        relative to slerp's median, that ratio as published, and on how many clips the
+        optimized scheme beats slerp.
+    """
+    temporal = errors_by_scheme(table, TEMPORAL)
+    raw = errors_by_scheme(table, RAW)
+    optimized = errors_by_scheme(table, OPTIMIZED)
+    theirs = published_boxes()
+    rows = {}
+    for name in ORDER:
+        if name not in optimized or name not in raw or "Slerp" not in temporal:
+            continue
+        pairs = pd.concat([optimized[name], temporal["Slerp"]], axis=1, join="inner")
+        rows[name] = {
+            "median raw": raw[name].median(),
+            "median optimized": optimized[name].median(),
+            "optimized / slerp, ours": optimized[name].median() / temporal["Slerp"].median(),
+            "optimized / slerp, published": (
+                theirs[name].median / theirs["Slerp"].median if name in theirs else None
+            ),
+            "clips where better": f"{(pairs.iloc[:, 0] < pairs.iloc[:, 1]).sum()} of {len(pairs)}",
+        }
+    result = pd.DataFrame.from_dict(rows, orient="index")
+    result.index.name = "scheme"
+    return result
+
+
+def describe_clips(table: pd.DataFrame) -> str:
+    """Say in a sentence which clips were used and how many, and what failed."""
+    done = table[table["status"] == "done"]
+    clips = done.drop_duplicates("dataset")
+    if clips.empty:
+        raise WorkbenchError(f"all runs failed; the first: {table['message'].iloc[0]}")
+    names = ", ".join(name.removeprefix("cmu/") for name in clips["dataset"])
+    lengths = clips["n_samples"].astype(int)
+    text = (
+        f"{len(clips)} CMU clips of {lengths.min()} to {lengths.max()} frames ({names}), where "
+        "the thesis had 70; uniform keyframes, 3 %, first and last frame included."
+    )
+    return f"{text} {describe_failures(table)}".strip()

@@ -1,0 +1,193 @@
+"""What notebooks leave in the output folder: figures, tables and how each run ended.
+
+OUT/figures/NAME.html, .json, .png    OUT/tables/NAME.csv
+OUT/parts/NAME.json                   what it is, its caption, which item it belongs to
+OUT/notebooks/NOTEBOOK.ipynb, .outcome.json
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from workbench.experiments.files import write_atomically
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import plotly.graph_objects as go
+
+FIGURE = "figure"
+TABLE = "table"
+NOT_MADE = "not made"
+
+
+class Outputs:
+    """Save what a notebook makes, for the report.
+
+    Parameters
+    ----------
+    out : path-like or None
+        The output folder; None saves nothing, for a notebook that is only looked at.
+    """
+
+    def __init__(self, out: str | Path | None) -> None:
+        self.folder = None if out is None else Path(out)
+
+    def figure(self, item: str, figure: go.Figure, *, caption: str, alt: str) -> None:
+        """Save a figure as HTML and JSON; ``reproduce`` adds the PNG.
+
+        Parameters
+        ----------
+        item : str
+            Id of the item that it belongs to.
+        figure : plotly.graph_objects.Figure
+            The figure.
+        caption : str
+            What it shows, on which data.
+        alt : str
+            What a reader who does not see it should know.
+        """
+        if self.folder is None:
+            return
+        path = self.folder / "figures" / slug(item)
+        write_atomically(path.with_name(f"{path.name}.json"), (figure.to_json() or "").encode())
+        # plotly.js is written once, beside the figures, so that the folder works offline.
+        figure.write_html(
+            path.with_name(f"{path.name}.html"),
+            include_plotlyjs="directory",
+            config={"responsive": True, "displaylogo": False},
+        )
+        self._part(item, slug(item), kind=FIGURE, caption=caption, alt=alt)
+
+    def table(self, item: str, table: pd.DataFrame, *, caption: str, name: str = "") -> None:
+        """Save a table as CSV.
+
+        Parameters
+        ----------
+        item : str
+            Id of the item that it belongs to.
+        table : DataFrame
+            The table. Two levels of columns are joined by a blank in the CSV.
+        caption : str
+            What it shows, on which data.
+        name : str
+            Tells several tables of one item apart.
+        """
+        if self.folder is None:
+            return
+        stem = slug(item) + (f"_{name}" if name else "")
+        flat = table.copy()
+        if flat.columns.nlevels > 1:
+            flat.columns = [" ".join(str(level) for level in column) for column in flat.columns]
+        content = flat.to_csv(lineterminator="\n")
+        write_atomically(self.folder / "tables" / f"{stem}.csv", content.encode())
+        self._part(item, stem, kind=TABLE, caption=caption, **_table_content(table))
+
+    def data(self, notebook: str, table: pd.DataFrame) -> None:
+        """Record which data the runs of a notebook used, for the report's introduction.
+
+        Parameters
+        ----------
+        notebook : str
+            Name of the notebook.
+        table : DataFrame
+            From :func:`workbench.experiments.grid.run_grid`.
+        """
+        if self.folder is None:
+            return
+        done = table[table["status"] == "done"]
+        record = {
+            "notebook": notebook,
+            "n_runs": len(table),
+            "n_failed": len(table) - len(done),
+            "seconds": float(done["seconds_total"].sum()) if len(done) else 0.0,
+            "sizes": {
+                str(name): int(size)
+                for name, size in done.groupby("dataset", sort=False)["n_samples"].first().items()
+            },
+        }
+        path = self.folder / "data" / f"{notebook}.json"
+        write_atomically(path, json.dumps(record, indent=1).encode())
+
+    def not_made(self, item: str, reason: str) -> None:
+        """Say why an item cannot be made, so that it is not silently missing.
+
+        Parameters
+        ----------
+        item : str
+            Id of the item.
+        reason : str
+            What is missing, and what the reader can do.
+        """
+        if self.folder is not None:
+            self._part(item, slug(item), kind=NOT_MADE, caption=reason)
+
+    def _part(self, item: str, name: str, **content: Any) -> None:
+        assert self.folder is not None
+        record = {"item": item, "name": name, **content}
+        path = self.folder / "parts" / f"{name}.{record['kind'].replace(' ', '-')}.json"
+        write_atomically(path, json.dumps(record, indent=1).encode())
+
+
+def slug(item: str) -> str:
+    """Make a file name of an id.
+
+    Examples
+    --------
+    >>> slug("costa2018:fig5.3")
+    'costa2018_fig5.3'
+    """
+    return re.sub(r"[^\w.-]", "_", item)
+
+
+def read_parts(out: Path) -> list[dict[str, Any]]:
+    """Read what the notebooks left in an output folder, in the order of its names."""
+    return [_read(path) for path in sorted((out / "parts").glob("*.json"))]
+
+
+def forget(out: Path, notebook: str, items: set[str]) -> None:
+    """Forget what a notebook made of its items earlier, before it runs again."""
+    for path in (out / "parts").glob("*.json"):
+        if _read(path)["item"] in items:
+            path.unlink()
+    (out / "data" / f"{notebook}.json").unlink(missing_ok=True)
+
+
+def write_outcome(out: Path, notebook: str, *, seconds: float, error: str) -> None:
+    """Record how the run of a notebook ended; an empty error means well."""
+    record = {"notebook": notebook, "seconds": seconds, "error": error}
+    write_atomically(_outcome_path(out, notebook), json.dumps(record, indent=1).encode())
+
+
+def read_outcome(out: Path, notebook: str) -> dict[str, Any] | None:
+    """Read how the last run of a notebook ended; None if it was not run."""
+    path = _outcome_path(out, notebook)
+    return _read(path) if path.is_file() else None
+
+
+def _outcome_path(out: Path, notebook: str) -> Path:
+    return out / "notebooks" / f"{notebook}.outcome.json"
+
+
+def _read(path: Path) -> dict[str, Any]:
+    content: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
+    return content
+
+
+def _table_content(table: pd.DataFrame) -> dict[str, Any]:
+    """Put a table in a form that JSON can hold and the report can show."""
+    import pandas as pd
+
+    columns = [list(c) if isinstance(c, tuple) else [str(c)] for c in table.columns]
+    rows = [
+        [None if pd.isna(value) else value for value in row]
+        for row in table.astype(object).to_numpy().tolist()
+    ]
+    return {
+        "index_name": str(table.index.name or ""),
+        "index": [str(name) for name in table.index],
+        "columns": columns,
+        "rows": rows,
+    }

@@ -1,0 +1,204 @@
+"""The report of a reproduction: one page that opens from a folder, without a network."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from workbench.experiments.execution import versions
+from workbench.experiments.files import write_atomically
+from workbench.experiments.items import Item, item_state
+from workbench.experiments.outputs import FIGURE, NOT_MADE, TABLE, read_outcome, read_parts, slug
+from workbench.experiments.progress import duration
+from workbench.experiments.published import published, published_ids
+
+_TEMPLATES = Path(__file__).with_name("templates")
+
+#: Columns whose numbers are differences, shown with their sign.
+_SIGNED = "difference"
+
+
+def write_report(out: Path, items: Sequence[Item]) -> Path:
+    """Write ``index.html`` from what lies in an output folder.
+
+    Parameters
+    ----------
+    out : Path
+        The output folder.
+    items : sequence of Item
+        What was asked for; items that were made earlier are shown only if they are among
+        these.
+
+    Returns
+    -------
+    Path
+        The report.
+    """
+    import jinja2
+
+    environment = jinja2.Environment(
+        loader=jinja2.FileSystemLoader(_TEMPLATES),
+        autoescape=True,
+        trim_blocks=True,
+        lstrip_blocks=True,
+        undefined=jinja2.StrictUndefined,
+    )
+    environment.filters["duration"] = duration
+    page = environment.get_template("report.html").render(
+        style=(_TEMPLATES / "report.css").read_text(encoding="utf-8"),
+        script=(_TEMPLATES / "report.js").read_text(encoding="utf-8"),
+        **_content(out, items),
+    )
+    index = out / "index.html"
+    write_atomically(index, page.encode())
+    return index
+
+
+def _content(out: Path, items: Sequence[Item]) -> dict[str, Any]:
+    parts = read_parts(out)
+    sections = [_section(out, item, parts) for item in items]
+    # An extra that was neither made nor explained was not asked for.
+    sections = [section for section in sections if section["asked"]]
+    notebooks = dict.fromkeys(item.notebook for item in items)
+    data = _data(out, list(notebooks))
+    outcomes = [read_outcome(out, name) for name in notebooks]
+    return {
+        "run": json.loads((out / "run.json").read_text(encoding="utf-8")),
+        "data": data,
+        "used": _describe_data(data),
+        "sections": sections,
+        "n_done": sum(section["state"] == "done" for section in sections),
+        "notebooks": [outcome for outcome in outcomes if outcome is not None],
+        "versions": versions(),
+    }
+
+
+def _section(out: Path, item: Item, parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    mine = [part for part in parts if part["item"] == item.id]
+    outcome = read_outcome(out, item.notebook)
+    return {
+        "item": item,
+        "anchor": slug(item.id),
+        "asked": bool(mine) or not item.id.startswith("extra:"),
+        "state": item_state(item, out),
+        "published": _published_value(item.id),
+        "figures": [_figure(out, part) for part in mine if part["kind"] == FIGURE],
+        "tables": [_table(part) for part in mine if part["kind"] == TABLE],
+        "not_made": [part["caption"] for part in mine if part["kind"] == NOT_MADE],
+        "error": outcome["error"] if outcome is not None else "",
+    }
+
+
+def _published_value(item_id: str) -> dict[str, Any] | None:
+    """Give a published single value; published tables stand in the tables themselves."""
+    if item_id not in published_ids():
+        return None
+    found = published(item_id)
+    if found.value is None:
+        return None
+    return {"value": f"{found.value:.2f}", "quantity": found.quantity, "note": found.note}
+
+
+def _figure(out: Path, part: dict[str, Any]) -> dict[str, Any]:
+    path = out / "figures" / f"{part['name']}.json"
+    # In a script element only "<" could end the element.
+    content = path.read_text(encoding="utf-8").replace("<", "\\u003c")
+    height = json.loads(content).get("layout", {}).get("height", 450)
+    has_image = path.with_suffix(".png").exists()
+    return {**part, "content": content, "height": height, "has_image": has_image}
+
+
+def _table(part: dict[str, Any]) -> dict[str, Any]:
+    """Prepare a table: header rows with spans, and cells as text."""
+    columns = part["columns"]
+    two_levels = bool(columns) and len(columns[0]) == 2
+    groups: list[dict[str, Any]] = []
+    for column in columns if two_levels else []:
+        if groups and groups[-1]["name"] == column[0]:
+            groups[-1]["span"] += 1
+        else:
+            groups.append({"name": column[0], "span": 1})
+    starts = [
+        index == 0 or column[0] != columns[index - 1][0] for index, column in enumerate(columns)
+    ]
+    heads = [
+        {"name": column[-1], "first": two_levels and starts[index]}
+        for index, column in enumerate(columns)
+    ]
+    rows = []
+    for name, values in zip(part["index"], part["rows"], strict=True):
+        cells = [
+            {
+                "text": format_cell(value, signed=column[-1] == _SIGNED),
+                "first": head["first"],
+                "ours": column[-1] == "ours",
+            }
+            for value, column, head in zip(values, columns, heads, strict=True)
+        ]
+        rows.append({"name": name, "cells": cells})
+    return {**part, "groups": groups, "heads": heads, "body": rows}
+
+
+def format_cell(value: Any, *, signed: bool = False) -> str:
+    """Write a value as a reader of a table expects it.
+
+    Parameters
+    ----------
+    value : object
+        A number, a text or None.
+    signed : bool
+        Whether a positive number shows its sign.
+
+    Returns
+    -------
+    str
+        Three decimals for numbers that are not whole, a dash for None, a true minus.
+
+    Examples
+    --------
+    >>> format_cell(0.5), format_cell(-0.0123, signed=True), format_cell(3), format_cell(None)
+    ('0.500', '−0.012', '3', '–')
+    """
+    if value is None:
+        return "\N{EN DASH}"
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        return str(value)
+    sign = "+" if signed else ""
+    if isinstance(value, int):
+        text = f"{value:{sign}d}"
+    elif math.isfinite(value) and abs(value) >= 1e5:
+        text = f"{value:{sign}.3g}"
+    else:
+        text = f"{value:{sign}.3f}"
+    return text.replace("-", "\N{MINUS SIGN}")
+
+
+def _data(out: Path, notebooks: Sequence[str]) -> list[dict[str, Any]]:
+    """Say which data each notebook used."""
+    found = []
+    for name in notebooks:
+        path = out / "data" / f"{name}.json"
+        if path.is_file():
+            found.append(json.loads(path.read_text(encoding="utf-8")))
+    return found
+
+
+def _describe_data(data: Sequence[dict[str, Any]]) -> str:
+    """Say in a sentence how many clips and which tables were used."""
+    sizes = {name: size for record in data for name, size in record["sizes"].items()}
+    clips = {name: size for name, size in sizes.items() if name.startswith("cmu")}
+    tables = [
+        f"{name.removeprefix('uci/')} ({size} rows)"
+        for name, size in sizes.items()
+        if name not in clips
+    ]
+    parts = []
+    if clips:
+        lengths = f"{min(clips.values())} to {max(clips.values())} frames"
+        parts.append(f"{len(clips)} motion capture clips of {lengths}")
+    if tables:
+        parts.append(f"{len(tables)} tables: {', '.join(tables)}")
+    return f"Data: {'; '.join(parts)}." if parts else "No data were used."

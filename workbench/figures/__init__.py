@@ -1,0 +1,1 @@
+"""Figures: plotly builders that take finished numbers and draw them, without computing."""

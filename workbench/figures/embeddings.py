@@ -1,0 +1,156 @@
+"""Scatter panels of embeddings, in the manner of Costa 2018, Figures 5.12 to 5.17."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import plotly.graph_objects as go
+from numpy.typing import ArrayLike, NDArray
+from plotly.subplots import make_subplots
+
+from workbench.errors import WorkbenchError
+from workbench.figures.style import BLACK, BLUE, TEMPLATE, class_style
+
+#: Points of a panel above which drawing them as vectors makes a page slow.
+_MANY = 3000
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """One embedding and what to call it.
+
+    Attributes
+    ----------
+    title : str
+        Shown above.
+    points : ndarray of shape (n_samples, 2)
+        Positions.
+    control_points : ndarray of shape (n_control_points,)
+        Indices of the samples that are drawn as crosses.
+    """
+
+    title: str
+    points: NDArray[np.float64]
+    control_points: NDArray[np.intp]
+
+
+def embedding_panels(
+    panels: Sequence[Panel],
+    *,
+    labels: ArrayLike | None = None,
+    n_columns: int = 2,
+) -> go.Figure:
+    """Draw embeddings of the same samples side by side.
+
+    Samples are dots in the colour of their class, control points crosses. Both axes have
+    one scale, since distances in the plane mean something; each panel has its own.
+
+    Parameters
+    ----------
+    panels : sequence of Panel
+        The embeddings, row by row.
+    labels : array-like of shape (n_samples,), optional
+        Class of each sample. Classes take their colours in the order of their first sample.
+    n_columns : int
+        Panels in a row.
+
+    Returns
+    -------
+    plotly.graph_objects.Figure
+
+    Raises
+    ------
+    WorkbenchError
+        If there is no panel, or labels or positions are not one for each sample.
+    """
+    if not panels:
+        raise WorkbenchError("panels: got none, want at least one embedding")
+    n_samples = len(panels[0].points)
+    classes = np.full(n_samples, "sample") if labels is None else np.asarray(labels).astype(str)
+    for panel in panels:
+        if panel.points.shape != (n_samples, 2) or len(classes) != n_samples:
+            raise WorkbenchError(
+                f"panel {panel.title!r}: got points of shape {panel.points.shape} and "
+                f"{len(classes)} labels, want ({n_samples}, 2) and {n_samples}"
+            )
+    n_rows = -(-len(panels) // n_columns)
+    figure = make_subplots(
+        rows=n_rows,
+        cols=n_columns,
+        subplot_titles=[panel.title for panel in panels],
+        horizontal_spacing=0.04,
+        vertical_spacing=0.10 if n_rows > 1 else 0.0,
+    )
+    for index, panel in enumerate(panels):
+        row, column = index // n_columns + 1, index % n_columns + 1
+        for trace in _panel_traces(panel, classes, first=index == 0):
+            figure.add_trace(trace, row=row, col=column)
+        axis = figure.get_subplot(row, column)
+        axis.yaxis.scaleanchor = axis.xaxis.anchor.replace("y", "x")
+    figure.update_xaxes(
+        showticklabels=False, ticks="", showgrid=False, zeroline=False, mirror=True, showline=True
+    )
+    figure.update_yaxes(
+        showticklabels=False, ticks="", showgrid=False, zeroline=False, mirror=True, showline=True
+    )
+    figure.update_annotations(font_size=13)
+    return figure.update_layout(
+        template=TEMPLATE,
+        height=90 + 380 * n_rows,
+        margin={"l": 12, "r": 12, "t": 40, "b": 60},
+        legend={"yanchor": "top", "y": -0.03, "itemsizing": "constant"},
+    )
+
+
+def _panel_traces(
+    panel: Panel, classes: NDArray[np.str_], *, first: bool
+) -> list[go.Scatter | go.Scattergl]:
+    """Draw dots class by class, and above them the control points as crosses."""
+    scatter = go.Scattergl if len(classes) > _MANY else go.Scatter
+    is_control = np.zeros(len(classes), dtype=bool)
+    is_control[panel.control_points] = True
+    names = list(dict.fromkeys(classes.tolist()))
+    dots: list[go.Scatter | go.Scattergl] = []
+    crosses: list[go.Scatter | go.Scattergl] = []
+    for index, name in enumerate(names):
+        color, symbol = (BLUE, "circle") if len(names) == 1 else class_style(index)
+        for control in (False, True):
+            chosen = np.flatnonzero((classes == name) & (is_control == control))
+            if len(chosen) == 0 and control:
+                continue
+            trace = scatter(
+                name=name,
+                x=panel.points[chosen, 0],
+                y=panel.points[chosen, 1],
+                customdata=chosen,
+                mode="markers",
+                legendgroup=name,
+                showlegend=first and not control,
+                marker=(
+                    {"symbol": "x", "size": 9, "color": color, "line": {"color": BLACK, "width": 1}}
+                    if control
+                    else {"symbol": symbol, "size": 5, "color": color, "opacity": 0.75}
+                ),
+                hovertemplate=f"{name}, sample %{{customdata}}"
+                + (" (control point)" if control else "")
+                + "<extra></extra>",
+            )
+            (crosses if control else dots).append(trace)
+    if first:
+        crosses.append(
+            go.Scatter(
+                name="control point",
+                x=[None],
+                y=[None],
+                mode="markers",
+                marker={
+                    "symbol": "x",
+                    "size": 9,
+                    "color": "white",
+                    "line": {"color": BLACK, "width": 1},
+                },
+            )
+        )
+    return dots + crosses
