@@ -7,6 +7,7 @@ cannot be treated sensibly is an error that says where it stands.
 from __future__ import annotations
 
 import difflib
+import math
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -19,7 +20,8 @@ from workbench.validation import MIN_SAMPLES
 if TYPE_CHECKING:
     import pandas as pd
 
-_MISSING_TEXT = ["", "na", "n/a", "nan", "null", "none", "?", "-", "#n/a", "nat", "<na>"]
+_MISSING_TEXT = frozenset(["", "na", "n/a", "nan", "null", "none", "?", "-", "#n/a", "nat", "<na>"])
+_TRUTH = {"true": 1.0, "false": 0.0}
 _UNLABELLED = "(missing)"
 _MIN_COLUMNS = 2
 _SHOWN = 8
@@ -167,39 +169,43 @@ def _as_numbers(column: pd.Series, said: list[str]) -> tuple[NDArray[np.float64]
         return None, f"holds {column.dtype} values"
     if kinds.is_timedelta64_dtype(column.dtype):
         return None, "holds time spans"
-    if kinds.is_bool_dtype(column.dtype):
-        said.append(f"truth values of column {column.name!r} became 0 and 1")
-        column = column.astype("Float64")
-    elif not kinds.is_numeric_dtype(column.dtype):
-        parsed, reason = _parse(column, said)
-        if parsed is None:
-            return None, reason
-        column = parsed
-    values = np.asarray(column.to_numpy(dtype=np.float64, na_value=np.nan), dtype=np.float64)
-    if np.isnan(values).all():
+    if kinds.is_numeric_dtype(column.dtype) and not kinds.is_bool_dtype(column.dtype):
+        values = np.asarray(column.to_numpy(dtype=np.float64, na_value=np.nan), dtype=np.float64)
+        return (None, "holds no values") if np.isnan(values).all() else (values, "")
+    items = [None if _is_missing(item) else item for item in column.tolist()]
+    if all(item is None for item in items):
         return None, "holds no values"
-    return values, ""
+    if all(item is None or str(item).lower() in _TRUTH for item in items):
+        said.append(f"truth values of column {column.name!r} became 0 and 1")
+        return np.array([_TRUTH.get(str(item).lower(), np.nan) for item in items]), ""
+    return _parse(items)
 
 
-def _parse(column: pd.Series, said: list[str]) -> tuple[pd.Series | None, str]:
-    """Parse a column of text or of mixed objects as numbers, or tell why it holds none."""
+def _is_missing(item: object) -> bool:
+    if isinstance(item, str):
+        return item.strip().lower() in _MISSING_TEXT
     import pandas as pd
 
-    text = column.astype(object).map(lambda item: item.strip() if isinstance(item, str) else item)
-    lower = text.map(lambda item: item.lower() if isinstance(item, str) else item)
-    missing = text.isna() | lower.map(lambda item: isinstance(item, str) and item in _MISSING_TEXT)
-    present = lower[~missing]
-    if len(present) and present.map(lambda item: item in ("true", "false")).all():
-        said.append(f"truth values of column {column.name!r} became 0 and 1")
-        return lower.map({"true": 1.0, "false": 0.0}), ""
+    return item is None or item is pd.NA or item is pd.NaT or _is_nan(item)
+
+
+def _is_nan(item: object) -> bool:
+    return isinstance(item, float) and math.isnan(item)
+
+
+def _parse(items: list[object]) -> tuple[NDArray[np.float64] | None, str]:
+    """Parse text or mixed objects as numbers, or tell which one is none."""
+    import pandas as pd
+
+    array = np.fromiter(items, dtype=object, count=len(items))
     try:
-        numbers = pd.to_numeric(text.mask(missing, None), errors="coerce")
+        numbers = np.asarray(pd.to_numeric(array, errors="coerce"), dtype=np.float64)
     except (TypeError, ValueError):
         return None, "does not hold single values"
-    unreadable = numbers.isna() & ~missing
+    unreadable = np.isnan(numbers) & np.array([item is not None for item in items])
     if unreadable.any():
         row = int(np.flatnonzero(unreadable)[0])
-        return None, f"row {row + 1} holds {str(text.iloc[row])[:30]!r}"
+        return None, f"row {row + 1} holds {str(items[row]).strip()[:30]!r}"
     return numbers, ""
 
 
