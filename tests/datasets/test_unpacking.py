@@ -71,7 +71,7 @@ def compress(data: bytes, widest: int = 16, clear_when_full: bool = False) -> by
 
 
 YEAST = (bundled("datasets") / "uci" / "yeast.data").read_bytes()
-MOTION = (bundled("datasets") / "mocap" / "bvh" / "01_01.bvh").read_bytes()[:300_000]
+MOTION = (bundled("datasets") / "mocap" / "bvh" / "01_01.bvh").read_bytes()[:400_000]
 CASES = [
     pytest.param(YEAST, 16, False, id="growing codes"),
     pytest.param(MOTION, 16, False, id="full table"),
