@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from workbench.cli.options import Json, report
 from workbench.errors import WorkbenchError
+
+if TYPE_CHECKING:
+    from workbench.experiments.items import Item
 
 
 class Profile(StrEnum):
@@ -31,22 +34,19 @@ def reproduce(
         Profile, typer.Option(help="quick: bundled data, minutes; full: all data found.")
     ] = Profile.quick,
     jobs: Annotated[
-        int | None, typer.Option(min=1, help="Runs at once; by default one for each core.")
-    ] = None,
+        int, typer.Option(help="Processes that compute at once; -1 for one on each core.")
+    ] = -1,
     seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
     out: Annotated[Path, typer.Option(help="Folder for the report.")] = Path("reproduction"),
     json: Json = False,
 ) -> None:
     """Regenerate figures and tables of the theses and compare them with the published ones."""
-    from workbench.experiments.items import item_state, select_items
+    from workbench.experiments.items import select_items
     from workbench.experiments.reproduce import reproduce as run
 
     items = select_items(ids)
     if list_:
-        rows = [
-            {"id": item.id, "notebook": item.notebook, "state": item_state(item, out)}
-            for item in items
-        ]
+        rows = _describe(items, out)
         if json:
             report({"items": rows}, as_json=True)
             return
@@ -54,16 +54,18 @@ def reproduce(
             typer.echo(f"{row['id']:<20}  {row['state']:<10}  {item.title}")
         return
     outcome = run(ids, profile=profile.value, jobs=jobs, out=out, seed=seed)
-    typer.echo(f"The report is {outcome.index}", err=json)
     if json:
-        report(
-            {
-                "items": [
-                    {"id": item.id, "notebook": item.notebook, "state": item_state(item, out)}
-                    for item in items
-                ]
-            },
-            as_json=True,
-        )
+        report({"items": _describe(items, out)}, as_json=True)
+    else:
+        typer.echo(f"The report is {outcome.index}")
     if outcome.failed:
-        raise WorkbenchError(f"failed: {', '.join(outcome.failed)}; the report shows the errors")
+        notebooks = ", ".join(outcome.errors)
+        raise WorkbenchError(f"failed: {notebooks}; {outcome.index} shows the errors")
+
+
+def _describe(items: list[Item], out: Path) -> list[dict[str, str]]:
+    from workbench.experiments.items import item_state
+
+    return [
+        {"id": item.id, "notebook": item.notebook, "state": item_state(item, out)} for item in items
+    ]
