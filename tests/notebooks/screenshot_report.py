@@ -15,6 +15,7 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
+LOCAL = ("file:", "data:", "blob:")
 
 
 def screenshot_report(
@@ -58,7 +59,7 @@ def screenshot_report(
         page.on("pageerror", lambda error: complaints.append(str(error)))
         page.on(
             "request",
-            lambda r: None if r.url.startswith(("file:", "data:", "blob:")) else complaints.append(r.url),
+            lambda r: None if r.url.startswith(LOCAL) else complaints.append(r.url),
         )
         page.goto((out / "index.html").resolve().as_uri())
         for plot in page.locator(".plot").all():

@@ -2,26 +2,21 @@
 
 from __future__ import annotations
 
-import platform
 import time
 import warnings
 from dataclasses import asdict, dataclass
-from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench import __version__
 from workbench.experiments.runs import Run, scheme_name
 from workbench.experiments.store import Arrays, Row
+from workbench.experiments.versions import versions
 from workbench.projection import project
 from workbench.quality.summary import EmbeddingQuality, embedding_quality
 from workbench.schemes import Result, SpatialResult, SpatialScheme
 from workbench.spaces import Space
-
-_PACKAGES = ("numpy", "scipy", "scikit-learn", "umap-learn", "numba")
 
 
 @dataclass(frozen=True)
@@ -152,15 +147,3 @@ def _spatial_values(result: SpatialResult, before: EmbeddingQuality) -> Row:
         "evaluations": result.evaluations,
         "iterations": result.optimization.iterations if result.optimization else 0,
     }
-
-
-@cache
-def versions() -> dict[str, str]:
-    """Tell the versions of Python, this package and those that decide numerical results."""
-    found = {"python": platform.python_version(), "workbench": __version__}
-    for package in _PACKAGES:
-        try:
-            found[package] = version(package)
-        except PackageNotFoundError:  # an optional projector's package may be left out
-            found[package] = "not installed"
-    return found

@@ -59,7 +59,7 @@ ITEMS = (
     _uci(12, 34, "Ionosphere, projected by MDS"),
     _uci(13, 35, "Iris, projected by Isomap"),
     _uci(14, 35, "Seeds, projected by LLE"),
-    _uci(15, 36, "Wine"),
+    _uci(15, 36, "Wine, projected by PCA in place of Force"),
     _uci(16, 36, "Page blocks, projected by PCA"),
     _uci(17, 37, "Yeast, projected by t-SNE"),
 )
@@ -127,21 +127,3 @@ def item_state(item: Item, out: str | Path) -> str:
         return "failed"
     made = [part for part in read_parts(Path(out)) if part["item"] == item.id]
     return "done" if any(part["kind"] != NOT_MADE for part in made) else "missing"
-
-
-def list_items(out: str | Path = "reproduction") -> list[dict[str, str]]:
-    """List the ids of all figures and tables with their notebooks and states.
-
-    Parameters
-    ----------
-    out : path-like
-        The output folder whose state is asked for.
-
-    Returns
-    -------
-    list of dict
-        ``{"id", "notebook", "state"}`` for each item.
-    """
-    return [
-        {"id": item.id, "notebook": item.notebook, "state": item_state(item, out)} for item in ITEMS
-    ]

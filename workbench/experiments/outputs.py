@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 FIGURE = "figure"
 TABLE = "table"
+VALUES = "values"
 NOT_MADE = "not made"
 
 
@@ -84,6 +86,19 @@ class Outputs:
         content = flat.to_csv(lineterminator="\n")
         write_atomically(self.folder / "tables" / f"{stem}.csv", content.encode())
         self._part(item, stem, kind=TABLE, caption=caption, **_table_content(table))
+
+    def values(self, item: str, values: Mapping[str, float]) -> None:
+        """Save our values of an item of which a single value was published.
+
+        Parameters
+        ----------
+        item : str
+            Id of the item.
+        values : mapping of str to float
+            What each value was computed on, and the value.
+        """
+        if self.folder is not None:
+            self._part(item, slug(item), kind=VALUES, values=dict(values))
 
     def data(self, notebook: str, table: pd.DataFrame) -> None:
         """Record which data the runs of a notebook used, for the report's introduction.

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import sys
 import time
+from typing import TYPE_CHECKING
 
-from workbench.experiments.grid import Advance
+if TYPE_CHECKING:
+    from workbench.experiments.grid import Advance
 
 #: Share of the work below which an estimate of the rest would be a guess.
 _ENOUGH = 0.1

@@ -6,11 +6,12 @@ import tomllib
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
-from typing import Any
-
-import pandas as pd
+from typing import TYPE_CHECKING, Any
 
 from workbench.errors import WorkbenchError
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 
 @dataclass(frozen=True)
@@ -61,6 +62,9 @@ class Published:
         """
         if self.rows is None:
             raise WorkbenchError(f"{self.source}: is a single value, not a table")
+        # Imported here because the report, which needs no table, should start at once.
+        import pandas as pd
+
         return pd.DataFrame.from_dict(self.rows, orient="index", columns=list(self.columns))
 
 

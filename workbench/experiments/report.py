@@ -8,12 +8,20 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from workbench.experiments.execution import versions
 from workbench.experiments.files import write_atomically
 from workbench.experiments.items import Item, item_state
-from workbench.experiments.outputs import FIGURE, NOT_MADE, TABLE, read_outcome, read_parts, slug
+from workbench.experiments.outputs import (
+    FIGURE,
+    NOT_MADE,
+    TABLE,
+    VALUES,
+    read_outcome,
+    read_parts,
+    slug,
+)
 from workbench.experiments.progress import duration
 from workbench.experiments.published import published, published_ids
+from workbench.experiments.versions import versions
 
 _TEMPLATES = Path(__file__).with_name("templates")
 
@@ -78,12 +86,19 @@ def _content(out: Path, items: Sequence[Item]) -> dict[str, Any]:
 
 def _section(out: Path, item: Item, parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
     mine = [part for part in parts if part["item"] == item.id]
+    values = {
+        label: f"{value:.2f}"
+        for part in mine
+        if part["kind"] == VALUES
+        for label, value in part["values"].items()
+    }
     outcome = read_outcome(out, item.notebook)
     return {
         "item": item,
         "anchor": slug(item.id),
         "asked": bool(mine) or not item.id.startswith("extra:"),
         "state": item_state(item, out),
+        "ours": values,
         "published": _published_value(item.id),
         "figures": [_figure(out, part) for part in mine if part["kind"] == FIGURE],
         "tables": [_table(part) for part in mine if part["kind"] == TABLE],

@@ -102,7 +102,7 @@ def box_plot(
                 )
             )
     figure.update_xaxes(categoryorder="array", categoryarray=categories, showgrid=False)
-    figure.update_yaxes(title_text=y_title, rangemode="tozero")
+    figure.update_yaxes(title_text=y_title, rangemode="tozero", tickformat=".1f")
     return figure.update_layout(height=460)
 
 

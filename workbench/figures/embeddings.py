@@ -81,7 +81,7 @@ def embedding_panels(
         cols=n_columns,
         subplot_titles=[panel.title for panel in panels],
         horizontal_spacing=0.04,
-        vertical_spacing=0.10 if n_rows > 1 else 0.0,
+        vertical_spacing=0.07 if n_rows > 1 else 0.0,
     )
     for index, panel in enumerate(panels):
         row, column = index // n_columns + 1, index % n_columns + 1
