@@ -28,10 +28,16 @@ class Space(ABC):
         What to call the data in messages and figures.
     samples : ndarray of shape (n_samples, ...)
         The samples themselves.
+    labels : ndarray of shape (n_samples,) or None
+        A class for each sample.
+    notes : tuple of str
+        What was done to the data when they were read, for the user to know.
     """
 
     name: str
     samples: NDArray[np.float64]
+    labels: NDArray[Any] | None = None
+    notes: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.samples)
@@ -102,6 +108,8 @@ class VectorSpace(Space):
     standardize : bool
         Whether to bring each column to zero mean and unit variance; a constant column
         becomes 0. It changes every result, so figures and tables say which was used.
+    notes : sequence of str
+        What was done to the data when they were read.
 
     Raises
     ------
@@ -123,6 +131,7 @@ class VectorSpace(Space):
         labels: ArrayLike | None = None,
         name: str = "",
         standardize: bool = False,
+        notes: tuple[str, ...] = (),
     ) -> None:
         array = np.array(values, dtype=np.float64)
         if array.ndim != 2 or len(array) < MIN_SAMPLES or array.shape[1] < 1:
@@ -138,7 +147,8 @@ class VectorSpace(Space):
         self.name = name
         self.standardized = standardize
         self.columns = tuple(columns) if columns else tuple(f"x{i}" for i in range(array.shape[1]))
-        self.labels: NDArray[Any] | None = None if labels is None else np.asarray(labels)
+        self.labels = None if labels is None else np.asarray(labels)
+        self.notes = tuple(notes)
         if len(self.columns) != array.shape[1]:
             raise WorkbenchError(f"columns: got {len(self.columns)} names, want {array.shape[1]}")
         if self.labels is not None and self.labels.shape != (len(array),):
@@ -213,7 +223,6 @@ class PoseSpace(Space):
         self.motion = motion
         self.samples = rotations
         self.name = motion.name
-        self.labels: NDArray[Any] | None = None
 
     @property
     def weights(self) -> NDArray[np.float64]:

@@ -101,6 +101,16 @@ def test_own_tables_work_and_treatments_are_said(run, table, tmp_path):
     assert set(written["label"]) == {"a", "b"}
 
 
+def test_treatments_of_own_tables_are_said(run, tmp_path):
+    """Rows with missing values are left out, and a line on standard error says how many."""
+    path = tmp_path / "gaps.csv"
+    path.write_text("a,b\n" + "\n".join(f"{i},{i * i % 7 if i % 6 else ''}" for i in range(30)))
+    status, _, err = run("project", path, "--count", 5)
+    assert status == 0
+    assert err.startswith("workbench: note: ")
+    assert "5 of 30 rows" in err
+
+
 def test_keyframes_and_compact_on_a_bundled_clip(run):
     """Selection and temporal reconstruction of a clip that every installation has."""
     status, out, _ = run("keyframes", "cmu/01_01", "--count", 5, "--json")

@@ -404,7 +404,7 @@ def test_skeleton_is_found_beside_the_motion(pair, tmp_path, name):
 
 
 def test_the_only_skeleton_of_a_folder_is_taken(pair):
-    """Where there is no choice the name does not matter."""
+    """Where there is no choice a name that tells no subject does not matter."""
     pair[1].rename(pair[1].with_name("walk.AMC"))
     assert read_motion(pair[1].with_name("walk.AMC")).name == "walk"
 
@@ -413,14 +413,15 @@ def test_the_only_skeleton_of_a_folder_is_taken(pair):
     ("files", "asked", "message"),
     [
         (["05_09.amc"], "05_09.amc", "want 05_09.asf or 05.asf in its folder"),
-        (["05_09.amc", "a.asf", "b.asf"], "05_09.amc", "has no skeleton beside it"),
+        (["walk.amc", "a.asf", "b.asf"], "walk.amc", "has no skeleton beside it"),
+        (["05_09.amc", "07.asf"], "05_09.amc", "has no skeleton beside it"),
         (["05.asf"], "05.asf", "a skeleton without motion"),
         (["clip.fbx"], "clip.fbx", "is of kind .fbx"),
         (["clip"], "clip", "is of kind none"),
         ([], "none.amc", "no such file"),
         ([], "none.bvh", "no such file"),
     ],
-    ids=["no-asf", "two-asf", "asf", "fbx", "no-ending", "missing-amc", "missing-bvh"],
+    ids=["no-asf", "two-asf", "other-subject", "asf", "fbx", "no-ending", "missing-amc", "missing-bvh"],
 )
 def test_what_is_no_motion_is_refused(tmp_path, files, asked, message):
     """A path that cannot be read as a motion gets an answer that says what is wanted."""

@@ -13,7 +13,7 @@ from workbench.errors import WorkbenchError
 
 if TYPE_CHECKING:
     from workbench.schemes import SpatialResult
-    from workbench.spaces import PoseSpace
+    from workbench.spaces import PoseSpace, Space
 
 
 def project(
@@ -41,10 +41,9 @@ def project(
     amount = options.count_or_ratio(count, ratio)
     writer = _table_writer(out)
 
-    from workbench.datasets import load_space
     from workbench.schemes import SpatialScheme
 
-    space = load_space(data, label=label, standardize=standardize)
+    space = _load(data, label, standardize)
     scheme = SpatialScheme(projector, control_points, back_projector, chosen)
     result = scheme.run(space, random_state=seed, **amount)
     if writer is not None:
@@ -134,11 +133,20 @@ def compact(
     options.report(values, json)
 
 
-def _load_motion(clip: str) -> PoseSpace:
+def _load(source: str, label: str | None = None, standardize: bool = False) -> Space:
+    """Load data, and say how a table was treated to become numbers."""
     from workbench.datasets import load_space
+
+    space = load_space(source, label=label, standardize=standardize)
+    for note in space.notes:
+        typer.echo(f"workbench: note: {note}", err=True)
+    return space
+
+
+def _load_motion(clip: str) -> PoseSpace:
     from workbench.spaces import PoseSpace
 
-    space = load_space(clip)
+    space = _load(clip)
     if not isinstance(space, PoseSpace):
         raise WorkbenchError(f"{clip}: got a table, want a motion")
     return space

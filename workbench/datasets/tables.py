@@ -124,6 +124,7 @@ class Table:
             labels=self.labels,
             name=self.name,
             standardize=standardize,
+            notes=self.notes,
         )
 
 

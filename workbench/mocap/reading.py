@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from workbench.errors import DataError
@@ -9,12 +10,15 @@ from workbench.mocap.amc import read_asf_amc
 from workbench.mocap.bvh import read_bvh
 from workbench.mocap.motion import Motion
 
+_TRIAL = re.compile(r"\d+_\d+")
+
 
 def read_motion(path: str | Path) -> Motion:
     """Read a motion file, telling its format by its ending.
 
-    An AMC file needs its skeleton beside it: ``05_09.asf`` or ``05.asf`` for
-    ``05_09.amc``, or the only ASF file in the folder.
+    An AMC file needs its skeleton beside it: ``05_09.asf`` or ``05.asf`` for ``05_09.amc``,
+    or the only ASF file in the folder. The name of a trial such as ``05_09`` tells the
+    subject; another subject's skeleton, with equal names and other lengths, is not taken.
 
     Parameters
     ----------
@@ -54,7 +58,7 @@ def _skeleton_beside(path: Path) -> Path:
     for stem in (path.stem, path.stem.rpartition("_")[0]):
         if stem in skeletons:
             return skeletons[stem]
-    if len(skeletons) == 1:
+    if len(skeletons) == 1 and not _TRIAL.fullmatch(path.stem):
         return next(iter(skeletons.values()))
     prefix = path.stem.rpartition("_")[0] or path.stem
     raise DataError(
