@@ -421,7 +421,16 @@ def test_the_only_skeleton_of_a_folder_is_taken(pair):
         ([], "none.amc", "no such file"),
         ([], "none.bvh", "no such file"),
     ],
-    ids=["no-asf", "two-asf", "other-subject", "asf", "fbx", "no-ending", "missing-amc", "missing-bvh"],
+    ids=[
+        "no-asf",
+        "two-asf",
+        "other-subject",
+        "asf",
+        "fbx",
+        "no-ending",
+        "missing-amc",
+        "missing-bvh",
+    ],
 )
 def test_what_is_no_motion_is_refused(tmp_path, files, asked, message):
     """A path that cannot be read as a motion gets an answer that says what is wanted."""

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
-from strategies import motions
 
+from tests.mocap.strategies import motions
 from workbench.errors import DataError, WorkbenchError
 from workbench.mocap import Motion, joint_positions, read_bvh, write_bvh
 from workbench.mocap.rotations import axis_rotation, geodesic_angles

@@ -8,8 +8,8 @@ from itertools import permutations
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from strategies import motions
 
+from tests.mocap.strategies import motions
 from workbench.errors import WorkbenchError
 from workbench.mocap import (
     Motion,

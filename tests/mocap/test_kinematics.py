@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from hypothesis import given, settings
-from strategies import motions
 
+from tests.mocap.strategies import motions
 from workbench.errors import WorkbenchError
 from workbench.mocap import (
     body_positions,

@@ -63,7 +63,7 @@ def compression_ratio(
     Examples
     --------
     >>> round(100 / compression_ratio(100_000, 3000, 31), 2)
-    5.94
+    6.06
     """
     if not 0 < n_keyframes <= n_frames:
         raise WorkbenchError(f"n_keyframes: got {n_keyframes}, want from 1 to {n_frames}")
