@@ -1,1 +1,1 @@
-"""Tests of the notebooks."""
+"""Tests of notebooks."""

@@ -1,21 +1,46 @@
-"""Take pictures of a reproduction report: python screenshot_report.py OUT PNG [WIDTH] [dark]."""
+"""Take pictures of a reproduction report.
+
+python -m tests.notebooks.screenshot_report OUT PNG [WIDTH] [dark]
+"""
 
 from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
-CHROMIUM = "/usr/bin/chromium"
-FLAGS = [
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-]
-LOCAL = ("file:", "data:", "blob:")
+from tests.browser.chromium import open_browser
+
+LOCAL = ("file:", "data:", "blob:", "about:")
+
+
+def open_report(browser: Any, out: Path, *, width: int = 1280, dark: bool = False) -> Any:
+    """Open the report of an output folder from ``file://`` and wait until its figures are drawn.
+
+    Returns
+    -------
+    page
+        Its attribute ``complaints`` lists errors on the console and requests that left the
+        folder; it is empty for a good page.
+    """
+    page = browser.new_page(
+        viewport={"width": width, "height": 1000}, color_scheme="dark" if dark else "light"
+    )
+    page.complaints = []
+
+    def note(text: str, *, good: bool) -> None:
+        if not good:
+            page.complaints.append(text)
+
+    page.on("console", lambda message: note(message.text, good=message.type != "error"))
+    page.on("pageerror", lambda error: note(str(error), good=False))
+    page.on("request", lambda request: note(request.url, good=request.url.startswith(LOCAL)))
+    page.goto((out / "index.html").resolve().as_uri())
+    for plot in page.locator(".plot").all():
+        plot.scroll_into_view_if_needed()
+        plot.locator(".main-svg").first.wait_for(timeout=30_000)
+    page.evaluate("window.scrollTo(0, 0)")
+    return page
 
 
 def screenshot_report(
@@ -26,7 +51,7 @@ def screenshot_report(
     height: int | None = None,
     dark: bool = False,
 ) -> list[str]:
-    """Open ``index.html`` of an output folder from ``file://`` and take a picture of it.
+    """Take a picture of the report of an output folder.
 
     Parameters
     ----------
@@ -44,38 +69,23 @@ def screenshot_report(
     Returns
     -------
     list of str
-        Errors on the console and requests that left the folder: empty for a good page.
+        What went wrong on the page, see :func:`open_report`.
     """
-    from playwright.sync_api import sync_playwright
-
-    complaints: list[str] = []
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=FLAGS)
-        page = browser.new_page(
-            viewport={"width": width, "height": height or 1000},
-            color_scheme="dark" if dark else "light",
-        )
-        page.on("console", lambda m: complaints.append(m.text) if m.type == "error" else None)
-        page.on("pageerror", lambda error: complaints.append(str(error)))
-        page.on(
-            "request",
-            lambda r: None if r.url.startswith(LOCAL) else complaints.append(r.url),
-        )
-        page.goto((out / "index.html").resolve().as_uri())
-        for plot in page.locator(".plot").all():
-            plot.scroll_into_view_if_needed()
-            plot.locator(".main-svg").first.wait_for(timeout=30_000)
-        page.evaluate("window.scrollTo(0, 0)")
+    with open_browser() as browser:
+        if browser is None:
+            return ["no chromium on this machine"]
+        page = open_report(browser, out, width=width, dark=dark)
+        if height is not None:
+            page.set_viewport_size({"width": width, "height": height})
         page.screenshot(path=str(picture), full_page=height is None)
-        browser.close()
-    return complaints
+        return list(page.complaints)
 
 
 if __name__ == "__main__":
-    found = screenshot_report(
+    problems = screenshot_report(
         Path(sys.argv[1]),
         Path(sys.argv[2]),
         width=int(sys.argv[3]) if len(sys.argv) > 3 else 1280,
         dark="dark" in sys.argv[4:],
     )
-    sys.exit("\n".join(found))
+    sys.exit("\n".join(problems))

@@ -66,7 +66,9 @@ _BOX_COLUMNS = {
 }
 
 
-def table_5_1_runs(clips: Iterable[str], *, seed: int = 0) -> list[Run]:
+def table_5_1_runs(
+    clips: Iterable[str], *, seed: int = 0, schemes: Iterable[str] | None = None
+) -> list[Run]:
     """List the runs of Table 5.1 and Figure 5.3, and those of the schemes before optimization.
 
     Parameters
@@ -75,13 +77,27 @@ def table_5_1_runs(clips: Iterable[str], *, seed: int = 0) -> list[Run]:
         Names of clips.
     seed : int
         Seed of the projectors that take one.
+    schemes : iterable of str, optional
+        Rows of the table, such as ``["Slerp", "t-SNE"]``; by default all that exist.
 
     Returns
     -------
     list of Run
+
+    Raises
+    ------
+    WorkbenchError
+        If a scheme is unknown.
     """
-    schemes = [*TEMPORAL.values(), *RAW.values(), *OPTIMIZED.values()]
-    return [Run(clip, scheme, ratio=RATIO, seed=seed) for clip in clips for scheme in schemes]
+    known = [*TEMPORAL, *RAW]
+    names = known if schemes is None else list(schemes)
+    for name in names:
+        if name not in known:
+            raise WorkbenchError(f"schemes: got {name!r}, want some of {', '.join(known)}")
+    every = [
+        family[name] for name in names for family in (TEMPORAL, RAW, OPTIMIZED) if name in family
+    ]
+    return [Run(clip, scheme, ratio=RATIO, seed=seed) for clip in clips for scheme in every]
 
 
 def errors_by_scheme(table: pd.DataFrame, schemes: dict[str, Scheme]) -> dict[str, pd.Series]:

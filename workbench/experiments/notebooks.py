@@ -34,7 +34,8 @@ def run_notebook(
     out : Path
         The output folder; how the run ended is recorded there too.
     parameters : mapping
-        What its ``parameters`` cell is to be overridden with.
+        What its ``parameters`` cell is to be overridden with; names that are not in it are
+        left out.
     progress : callable
         Called with each line that the notebook prints on stderr.
 
@@ -50,11 +51,12 @@ def run_notebook(
     start = time.perf_counter()
     error = ""
     try:
+        known = papermill.inspect_notebook(notebook)
         with this_interpreter():
             papermill.execute_notebook(
                 notebook,
                 executed,
-                parameters=dict(parameters),
+                parameters={name: parameters[name] for name in known if name in parameters},
                 kernel_name="python3",
                 progress_bar=False,
                 stderr_file=_Lines(progress),

@@ -37,8 +37,7 @@ def write_report(out: Path, items: Sequence[Item]) -> Path:
     out : Path
         The output folder.
     items : sequence of Item
-        What was asked for; items that were made earlier are shown only if they are among
-        these.
+        What to show, whether it was made or not.
 
     Returns
     -------
@@ -68,8 +67,6 @@ def write_report(out: Path, items: Sequence[Item]) -> Path:
 def _content(out: Path, items: Sequence[Item]) -> dict[str, Any]:
     parts = read_parts(out)
     sections = [_section(out, item, parts) for item in items]
-    # An extra that was neither made nor explained was not asked for.
-    sections = [section for section in sections if section["asked"]]
     notebooks = dict.fromkeys(item.notebook for item in items)
     data = _data(out, list(notebooks))
     outcomes = [read_outcome(out, name) for name in notebooks]
@@ -96,7 +93,6 @@ def _section(out: Path, item: Item, parts: Sequence[dict[str, Any]]) -> dict[str
     return {
         "item": item,
         "anchor": slug(item.id),
-        "asked": bool(mine) or not item.id.startswith("extra:"),
         "state": item_state(item, out),
         "ours": values,
         "published": _published_value(item.id),
@@ -114,7 +110,7 @@ def _published_value(item_id: str) -> dict[str, Any] | None:
     found = published(item_id)
     if found.value is None:
         return None
-    return {"value": f"{found.value:.2f}", "quantity": found.quantity, "note": found.note}
+    return {"value": f"{found.value:.2f}", "quantity": found.quantity}
 
 
 def _figure(out: Path, part: dict[str, Any]) -> dict[str, Any]:

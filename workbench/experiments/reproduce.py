@@ -12,9 +12,9 @@ from pathlib import Path
 from workbench.errors import WorkbenchError
 from workbench.experiments.files import write_atomically
 from workbench.experiments.images import write_pngs
-from workbench.experiments.items import EXTRAS, Item, item_state, select_items
+from workbench.experiments.items import EXTRAS, ITEMS, Item, item_state, select_items
 from workbench.experiments.notebooks import run_notebook
-from workbench.experiments.outputs import forget
+from workbench.experiments.outputs import forget, read_parts
 from workbench.experiments.progress import duration
 from workbench.experiments.report import write_report
 from workbench.resources import bundled
@@ -128,6 +128,11 @@ def reproduce_items(
     start = time.perf_counter()
     folder = Path(out).expanduser().resolve()
     _check_writable(folder)
+    # With all items of a notebook come its extras; with some of them, they alone.
+    whole = {item.notebook for item in items} - {
+        item.notebook for item in ITEMS if item not in items
+    }
+    wanted = [*items, *(extra for extra in EXTRAS if extra.notebook in whole)]
     parameters = {
         "profile": profile,
         "seed": seed,
@@ -139,10 +144,14 @@ def reproduce_items(
     errors = {}
     for number, name in enumerate(names, 1):
         progress(f"{name} ({number} of {len(names)})")
-        forget(folder, name, {item.id for item in (*items, *EXTRAS) if item.notebook == name})
+        mine = [item.id for item in wanted if item.notebook == name]
+        forget(folder, name, set(mine))
         began = time.perf_counter()
         error = run_notebook(
-            notebooks / f"{name}.ipynb", folder, parameters, lambda line: progress(f"  {line}")
+            notebooks / f"{name}.ipynb",
+            folder,
+            {**parameters, "items": None if name in whole else mine},
+            lambda line: progress(f"  {line}"),
         )
         took = duration(time.perf_counter() - began)
         if error:
@@ -154,7 +163,9 @@ def reproduce_items(
     seconds = time.perf_counter() - start
     run = {"profile": profile, "seed": seed, "seconds": seconds, "notices": notices}
     write_atomically(folder / "run.json", json.dumps(run, indent=1).encode())
-    index = write_report(folder, [*items, *EXTRAS])
+    made = {part["item"] for part in read_parts(folder)}
+    earlier = [item for item in (*ITEMS, *EXTRAS) if item.id in made and item not in wanted]
+    index = write_report(folder, [*wanted, *earlier])
     progress(f"report: {index}")
     states = {item.id: item_state(item, folder) for item in items}
     return ReproductionReport(folder, index, states, errors, tuple(notices), seconds)

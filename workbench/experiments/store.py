@@ -65,7 +65,9 @@ class ResultStore:
             write_atomically(self._arrays_path(key), packed)
         content = {"key": key, "row": row, "arrays": _sha256(packed) if arrays else None}
         record = {**content, "sha256": _sha256(_canonical(content))}
-        write_atomically(self._row_path(key), _canonical(record) + b"\n")
+        # The file keeps the order of the columns, on which the checksum does not depend.
+        text = json.dumps(record, allow_nan=False, indent=1) + "\n"
+        write_atomically(self._row_path(key), text.encode())
 
     def read(self, key: str) -> Row | None:
         """Read the row of a finished run.
@@ -156,7 +158,7 @@ class ResultStore:
 
 
 def _canonical(content: Any) -> bytes:
-    return json.dumps(content, sort_keys=True, allow_nan=False, indent=1).encode()
+    return json.dumps(content, sort_keys=True, allow_nan=False).encode()
 
 
 def _sha256(content: bytes) -> str:

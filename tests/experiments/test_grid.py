@@ -1,0 +1,250 @@
+"""Grids of runs: in parallel, resumable, and never twice."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from tests.experiments import slow_grid
+from workbench.datasets import load_space
+from workbench.errors import WorkbenchError
+from workbench.experiments import grid
+from workbench.experiments.grid import Advance, describe_failures, run_grid
+from workbench.experiments.runs import Run
+from workbench.experiments.store import ResultStore
+from workbench.projection import projectors
+from workbench.projection.pca import PCA
+from workbench.schemes import SpatialScheme, TemporalScheme
+
+RAW = SpatialScheme("pca", selector="random")
+OPTIMIZED = SpatialScheme("pca", selector="random", optimizer="alg12")
+PAIR = [Run("uci/iris", RAW, ratio=0.05), Run("uci/iris", OPTIMIZED, ratio=0.05)]
+TIMES = ("seconds_", "version_")
+
+
+@pytest.fixture
+def counted(monkeypatch) -> list[int]:
+    """Register a projector "counted" and give the list to which each projection adds."""
+    calls: list[int] = []
+
+    class Counted(PCA):
+        def _project(self, X):
+            calls.append(len(X))
+            return super()._project(X)
+
+    monkeypatch.setitem(projectors._entries, "counted", Counted)
+    return calls
+
+
+def _values(table: pd.DataFrame) -> pd.DataFrame:
+    return table[[name for name in table.columns if not name.startswith(TIMES)]]
+
+
+def test_a_row_holds_what_the_scheme_gives(tmp_path: Path):
+    """Error and stress of a row are those of the scheme run by hand."""
+    row = run_grid(PAIR, tmp_path).iloc[1]
+    result = OPTIMIZED.run(load_space("uci/iris"), ratio=0.05, random_state=0)
+    assert row["status"] == "done"
+    assert row["error"] == result.error
+    assert row["relative_error"] == result.relative_error
+    assert row["stress"] == result.quality.stress
+    assert row["projected_stress"] == result.projected_quality.stress
+    assert row["stress_ratio"] == result.quality.stress / result.projected_quality.stress
+    assert row["evaluations"] == result.evaluations
+    assert (row["n_samples"], row["n_control_points"]) == (150, 7)
+    assert row["seconds_optimize"] > 0
+
+
+def test_embeddings_are_kept_with_the_result(tmp_path: Path):
+    """The arrays of a run are the embeddings of the scheme."""
+    row = run_grid(PAIR, tmp_path).iloc[1]
+    result = OPTIMIZED.run(load_space("uci/iris"), ratio=0.05, random_state=0)
+    arrays = ResultStore(tmp_path).arrays(row["key"])
+    assert np.array_equal(arrays["projected"], result.projected)
+    assert np.array_equal(arrays["embedding"], result.embedding)
+    assert np.array_equal(arrays["control_points"], result.control_points)
+    assert np.array_equal(arrays["errors"], result.errors)
+
+
+def test_raw_and_optimized_share_one_projection(tmp_path: Path, counted: list[int]):
+    """Two schemes of one projector project once."""
+    schemes = [
+        SpatialScheme("counted", selector="random", optimizer=optimizer)
+        for optimizer in (None, "alg12")
+    ]
+    table = run_grid([Run("uci/iris", scheme, ratio=0.05) for scheme in schemes], tmp_path)
+    assert table["status"].tolist() == ["done", "done"]
+    assert counted == [150]
+
+
+def test_finished_runs_are_not_computed_again(tmp_path: Path, counted: list[int]):
+    """A second call reads everything and gives the same table to the last bit."""
+    runs = [Run("uci/iris", SpatialScheme("counted", selector="random"), ratio=0.05)]
+    first = run_grid(runs, tmp_path)
+    pd.testing.assert_frame_equal(run_grid(runs, tmp_path), first)
+    assert counted == [150]
+
+
+def test_a_damaged_result_is_computed_again(tmp_path: Path, counted: list[int]):
+    """Damage to one file costs one run, and leaves the same values."""
+    runs = [
+        Run("uci/iris", SpatialScheme("counted", selector="random"), ratio=0.05, seed=seed)
+        for seed in range(3)
+    ]
+    first = run_grid(runs, tmp_path)
+    damaged = tmp_path / f"{first['key'][1]}.json"
+    damaged.write_bytes(damaged.read_bytes()[:100])
+    with pytest.warns(UserWarning, match="damaged"):
+        again = run_grid(runs, tmp_path)
+    assert len(counted) == 4
+    pd.testing.assert_frame_equal(_values(again), _values(first))
+
+
+def test_runs_in_processes_give_the_same_values(tmp_path: Path):
+    """Two worker processes give what this process gives, in the order asked for."""
+    runs = [*PAIR, Run("uci/wine", RAW, ratio=0.05), Run("cmu/01_03-walk", OPTIMIZED, count=9)]
+    here = run_grid(runs, tmp_path / "here")
+    there = run_grid(runs, tmp_path / "there", n_jobs=2)
+    assert there["dataset"].tolist() == [run.dataset for run in runs]
+    pd.testing.assert_frame_equal(_values(there), _values(here), check_exact=False, rtol=1e-9)
+
+
+def test_a_failing_run_is_named_and_leaves_the_others(tmp_path: Path):
+    """A table has no time and a name no data; the run between them finishes."""
+    runs = [
+        Run("uci/iris", TemporalScheme("slerp"), ratio=0.05),
+        PAIR[0],
+        Run("no/data", RAW, count=3),
+    ]
+    table = run_grid(runs, tmp_path)
+    assert table["status"].tolist() == ["failed", "done", "failed"]
+    assert table["message"][0].startswith("uci/iris, slerp, uniform, 5 %, seed 0: ")
+    assert "no time" in table["message"][0]
+    assert "no/data" in table["message"][2]
+    assert describe_failures(table).startswith("2 of 3 runs failed; the first: uci/iris, slerp")
+    assert describe_failures(table[1:2]) == ""
+
+
+def test_a_worker_that_dies_costs_its_own_runs_only(tmp_path: Path, monkeypatch):
+    """Runs of a killed worker are failed by name, and a later call finishes them."""
+    original = grid._execute_whole_group
+
+    def dies_on_wine(group, folder):
+        if group[0][1].dataset == "uci/wine":
+            os.kill(os.getpid(), signal.SIGKILL)
+        return original(group, folder)
+
+    runs = [*PAIR, Run("uci/wine", RAW, ratio=0.05)]
+    with monkeypatch.context() as patch:
+        patch.setattr(grid, "_execute_whole_group", dies_on_wine)
+        with pytest.warns(UserWarning, match="worker process ended"):
+            table = run_grid(runs, tmp_path, n_jobs=2)
+    assert table["status"][2] == "failed"
+    assert table["message"][2].startswith("uci/wine, pca, random")
+    assert run_grid(runs, tmp_path)["status"].tolist() == ["done"] * 3
+
+
+def test_repetitions_are_one_run(tmp_path: Path):
+    """A run that is asked for twice has one row."""
+    assert len(run_grid([PAIR[0], PAIR[0]], tmp_path)) == 1
+
+
+def test_no_runs_give_a_table_without_rows(tmp_path: Path):
+    """Readers of an empty grid still find the columns."""
+    table = run_grid([], tmp_path)
+    assert len(table) == 0
+    assert {"status", "dataset", "error"} <= set(table.columns)
+
+
+def test_progress_counts_up_to_all_runs(tmp_path: Path):
+    """Progress starts with what is found and ends with all runs and all the work."""
+    run_grid(PAIR[:1], tmp_path)
+    seen: list[Advance] = []
+    run_grid([*PAIR, Run("uci/wine", RAW, ratio=0.05)], tmp_path, progress=seen.append)
+    assert (seen[0].finished, seen[0].total, seen[0].share) == (1, 3, 0.0)
+    assert [advance.finished for advance in seen] == [1, 2, 3]
+    assert seen[-1].share == pytest.approx(1.0)
+
+
+def test_parquet_holds_the_results(tmp_path: Path):
+    """The table on disk has the rows of the table returned."""
+    table = run_grid(PAIR, tmp_path)
+    stored = pd.read_parquet(tmp_path / "runs.parquet")
+    assert sorted(stored["error"]) == sorted(table["error"])
+
+
+def test_jobs_must_make_sense(tmp_path: Path):
+    """Zero processes can run nothing."""
+    with pytest.raises(WorkbenchError, match="n_jobs: got 0"):
+        run_grid(PAIR, tmp_path, n_jobs=0)
+
+
+class _Interrupted:
+    """A grid in a process of its own that waits in its third run."""
+
+    def __init__(self, folder: Path) -> None:
+        self.results, self.log, self.go = folder / "results", folder / "log", folder / "go"
+        self.process = subprocess.Popen(
+            [
+                sys.executable,
+                "-m",
+                slow_grid.__name__,
+                str(self.results),
+                str(self.log),
+                str(self.go),
+            ],
+            cwd=Path(__file__).parents[2],
+        )
+
+    def lines(self) -> list[str]:
+        return self.log.read_text().splitlines() if self.log.exists() else []
+
+    def wait_for_third_run(self) -> None:
+        deadline = time.monotonic() + 120
+        while len(self.lines()) < 3:
+            assert self.process.poll() is None, "the grid ended by itself"
+            assert time.monotonic() < deadline, "the grid did not get to its third run"
+            time.sleep(0.05)
+
+
+def test_a_killed_grid_goes_on_where_it_was(tmp_path: Path):
+    """After kill -9 in the third of five runs, the first two are not computed again."""
+    interrupted = _Interrupted(tmp_path)
+    interrupted.wait_for_third_run()
+    interrupted.process.send_signal(signal.SIGKILL)
+    interrupted.process.wait()
+    before = {path: path.stat().st_mtime_ns for path in interrupted.results.glob("*.json")}
+    assert len(before) == 2
+
+    interrupted.go.touch()
+    table = slow_grid.run(interrupted.results, interrupted.log, interrupted.go)
+    assert table["status"].tolist() == ["done"] * 5
+    # Three runs before the end, of which the third was lost, and three after it.
+    assert len(interrupted.lines()) == 6
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+
+
+def test_two_processes_share_a_folder(tmp_path: Path):
+    """While one process waits in a run another finishes the rest; both end with all results."""
+    first = _Interrupted(tmp_path)
+    first.wait_for_third_run()
+    # The line of the run that waits is there, so the runs of this process go through.
+    table = slow_grid.run(first.results, first.log, first.go)
+    assert table["status"].tolist() == ["done"] * 5
+    # Found finished: 2. Computed here: 3, of which the first process still holds one.
+    assert len(first.lines()) == 6
+    first.go.touch()
+    assert first.process.wait(timeout=60) == 0
+    # The waiting process found the last two finished.
+    assert len(first.lines()) == 6
+    stored = [json.loads(path.read_text()) for path in first.results.glob("*.json")]
+    assert {record["key"] for record in stored} == set(table["key"])

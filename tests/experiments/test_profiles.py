@@ -1,0 +1,56 @@
+"""Which data a profile uses."""
+
+from __future__ import annotations
+
+import os
+
+import pytest
+
+from workbench.datasets import load
+from workbench.errors import WorkbenchError
+from workbench.experiments.profiles import absent_tables, motion_clips
+
+
+def test_quick_uses_short_excerpts_of_the_bundled_clips():
+    """At least six different motions, each in the thesis's range of lengths."""
+    clips = motion_clips("quick")
+    assert len(clips) >= 6
+    assert all(name.startswith(("cmu/01_01-", "cmu/01_03-")) for name in clips)
+    assert all(129 <= len(load(name)) <= 1146 for name in clips)
+
+
+@pytest.mark.skipif(
+    not os.environ.get("WORKBENCH_DATA"), reason="needs CMU clips in a folder in WORKBENCH_DATA"
+)
+def test_full_uses_the_clips_in_the_range_of_the_thesis():
+    """Whole clips of 129 to 1146 frames: the named 05_10, not 01_01 with 2751."""
+    clips = motion_clips("full")
+    assert "cmu/05_10" in clips
+    assert "cmu/01_01" not in clips
+    assert all("-" not in name for name in clips)
+
+
+def test_full_without_such_clips_says_what_to_do(monkeypatch):
+    """The bundled clips are too long, so the message names WORKBENCH_DATA."""
+    monkeypatch.delenv("WORKBENCH_DATA", raising=False)
+    monkeypatch.setenv("WORKBENCH_CACHE", "/nonexistent")
+    with pytest.raises(WorkbenchError, match="WORKBENCH_DATA, or take the quick profile"):
+        motion_clips("full")
+
+
+def test_tables_that_are_not_used_have_a_reason(monkeypatch, tmp_path):
+    """Bundled tables are used; a large and a missing one are left out with a reason each."""
+    monkeypatch.delenv("WORKBENCH_DATA", raising=False)
+    monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))
+    names = ["uci/iris", "uci/wine", "uci/yeast", "uci/ionosphere", "uci/seeds", "uci/page-blocks"]
+    reasons = absent_tables("quick", names)
+    assert set(reasons) == {"uci/seeds", "uci/page-blocks"}
+    assert "`workbench datasets fetch uci/seeds`" in reasons["uci/seeds"]
+    assert "quick profile" in reasons["uci/page-blocks"]
+    assert "fetch uci/page-blocks" in absent_tables("full", names)["uci/page-blocks"]
+
+
+def test_an_unknown_profile_is_refused():
+    """A misspelt profile does not silently mean another one."""
+    with pytest.raises(WorkbenchError, match="profile: got 'quik', want 'quick' or 'full'"):
+        motion_clips("quik")

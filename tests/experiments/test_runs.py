@@ -1,0 +1,90 @@
+"""Runs and their content keys."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from sklearn.decomposition import PCA
+
+from workbench.errors import WorkbenchError
+from workbench.experiments import runs
+from workbench.experiments.runs import Run, content_key, space_checksum
+from workbench.mocap.motion import Motion
+from workbench.schemes import SpatialScheme, TemporalScheme
+from workbench.spaces import PoseSpace, VectorSpace
+
+RUN = Run("uci/iris", SpatialScheme("pca", selector="random"), ratio=0.03)
+
+CHANGES = {
+    "dataset": {"dataset": "uci/wine"},
+    "projector": {"scheme": SpatialScheme("mds", selector="random")},
+    "optimizer": {"scheme": SpatialScheme("pca", selector="random", optimizer="alg12")},
+    "kind": {"scheme": TemporalScheme("slerp", selector="random")},
+    "ratio": {"ratio": 0.04},
+    "count": {"ratio": None, "count": 4},
+    "seed": {"seed": 1},
+    "standardize": {"standardize": True},
+}
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES.keys())
+def test_key_changes_with_every_part_of_a_run(change):
+    """Two runs that differ in anything have different keys."""
+    assert content_key(replace(RUN, **change), "data") != content_key(RUN, "data")
+
+
+def test_key_changes_with_the_data_and_the_version(monkeypatch):
+    """A result of other data or another version is not taken for this one's."""
+    key = content_key(RUN, "data")
+    assert content_key(RUN, "other data") != key
+    monkeypatch.setattr(runs, "__version__", "9.9")
+    assert content_key(RUN, "data") != key
+
+
+def test_key_is_the_same_in_every_process(monkeypatch):
+    """The key is the known SHA-256 of known content, not something of this process."""
+    monkeypatch.setattr(runs, "__version__", "1.0")
+    text = (
+        '{"data":"abc","run":{"back_projector":null,"count":null,"dataset":"uci/iris",'
+        '"kind":"spatial","optimizer":null,"projector":"pca","ratio":0.03,"seed":0,'
+        '"selector":"random","standardize":false},"version":"1.0"}'
+    )
+    assert content_key(RUN, "abc") == hashlib.sha256(text.encode()).hexdigest()
+
+
+def test_checksum_notices_one_changed_bit():
+    """The checksum of a table changes with the last bit of one number."""
+    values = np.arange(12.0).reshape(4, 3)
+    changed = values.copy()
+    changed[2, 1] = np.nextafter(changed[2, 1], np.inf)
+    assert space_checksum(VectorSpace(values)) == space_checksum(VectorSpace(values.copy()))
+    assert space_checksum(VectorSpace(values)) != space_checksum(VectorSpace(changed))
+
+
+def test_checksum_of_a_motion_depends_on_its_skeleton(waving: Motion):
+    """Longer bones weigh joints differently, so the same rotations are other data."""
+    longer = replace(waving.skeleton, offsets=2.5 * waving.skeleton.offsets)
+    stretched = replace(waving, skeleton=longer)
+    assert space_checksum(PoseSpace(waving)) != space_checksum(PoseSpace(stretched))
+
+
+def test_methods_must_be_names():
+    """An object cannot be stored with a result; the message says what to do."""
+    with pytest.raises(WorkbenchError, match="projector of a run: got PCA, want a registered name"):
+        Run("uci/iris", SpatialScheme(PCA()), ratio=0.03)
+
+
+@pytest.mark.parametrize("amount", [{}, {"ratio": 0.1, "count": 3}], ids=["neither", "both"])
+def test_exactly_one_of_ratio_and_count(amount):
+    """A run without a number of control points, or with two, is refused."""
+    with pytest.raises(WorkbenchError, match="exactly one"):
+        Run("uci/iris", SpatialScheme("pca"), **amount)
+
+
+def test_a_run_reads_as_a_sentence():
+    """Messages name a run so that it can be recognised."""
+    run = Run("cmu/05_10", TemporalScheme("slerp", selector="uniform"), count=24, seed=3)
+    assert str(run) == "cmu/05_10, slerp, uniform, 24 control points, seed 3"
