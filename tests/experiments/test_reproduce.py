@@ -1,0 +1,283 @@
+"""Reproductions with notebooks that work and notebooks that fail."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+import sys
+from html.parser import HTMLParser
+from pathlib import Path
+
+import nbformat
+import pandas as pd
+import pytest
+from nbformat.v4 import new_code_cell, new_notebook
+
+from tests.browser.chromium import chromium_path
+from workbench.errors import WorkbenchError
+from workbench.experiments import images
+from workbench.experiments.images import write_pngs
+from workbench.experiments.items import ITEMS, Item, item_state
+from workbench.experiments.notebooks import this_interpreter
+from workbench.experiments.report import format_cell
+from workbench.experiments.reproduce import ReproductionReport, reproduce, reproduce_items
+
+PARAMETERS = "profile = None\nseed = None\njobs = None\nout = None\nresults = None"
+GOOD = """
+import sys
+import pandas as pd
+import plotly.graph_objects as go
+from workbench.experiments.outputs import Outputs
+
+outputs = Outputs(out)
+print("drawing", profile, seed, file=sys.stderr)
+figure = go.Figure(go.Scatter(x=[1, 2], y=[3, 5]), layout={"height": 300})
+outputs.figure("test:fig1", figure, caption="A line & <two> points.", alt="Two points.")
+table = pd.DataFrame({("error", "ours"): [0.5, None], ("error", "difference"): [0.25, -1.0]})
+table.columns = pd.MultiIndex.from_tuples(table.columns)
+outputs.table("test:fig1", table, caption="Two rows.")
+outputs.not_made("test:fig2", "The data for it are missing.")
+"""
+BAD = """
+def deeper():
+    raise ZeroDivisionError("a <deliberate> failure")
+
+deeper()
+"""
+FIG1 = Item("test:fig1", "A line", "Nowhere, Figure 1", "good")
+FIG2 = Item("test:fig2", "No line", "Nowhere, Figure 2", "good")
+FIG3 = Item("test:fig3", "A failure", "Nowhere, Figure 3", "bad")
+ABSENT = Item("test:fig4", "Not there", "Nowhere, Figure 4", "absent")
+
+
+def _write_notebook(path: Path, source: str) -> None:
+    parameters = new_code_cell(PARAMETERS, metadata={"tags": ["parameters"]})
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
+    cells = [parameters, new_code_cell(source.strip())]
+    nbformat.write(new_notebook(cells=cells, metadata=kernel), path)
+
+
+@pytest.fixture(scope="module")
+def run(tmp_path_factory: pytest.TempPathFactory) -> tuple[ReproductionReport, list[str]]:
+    """Reproduce four items of which one notebook fails first and one is not there."""
+    folder = tmp_path_factory.mktemp("reproduction")
+    for name, source in (("good", GOOD), ("bad", BAD)):
+        _write_notebook(folder / f"{name}.ipynb", source)
+    messages: list[str] = []
+    report = reproduce_items(
+        [FIG3, ABSENT, FIG1, FIG2],
+        folder,
+        profile="quick",
+        jobs=1,
+        out=folder / "out",
+        seed=7,
+        progress=messages.append,
+    )
+    return report, messages
+
+
+class _Page(HTMLParser):
+    """Collect what a page refers to, its ids and its headings."""
+
+    def __init__(self, path: Path) -> None:
+        super().__init__()
+        self.links: list[str] = []
+        self.loads: list[str] = []
+        self.ids: list[str] = []
+        self.tags: list[str] = []
+        self.images: list[dict[str, str | None]] = []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attrs):
+        values = dict(attrs)
+        self.tags.append(tag)
+        if values.get("id"):
+            self.ids.append(values["id"])
+        if tag == "a":
+            self.links.append(values["href"])
+        if tag in ("script", "img", "link", "iframe"):
+            self.loads += [values[name] for name in ("src", "href") if values.get(name)]
+        if tag == "img":
+            self.images.append(values)
+
+
+def test_a_failing_notebook_is_reported_and_the_others_run(run):
+    """The failure is flagged, and the notebook after it still makes its items."""
+    report, _ = run
+    assert report.failed
+    assert set(report.errors) == {"bad", "absent"}
+    assert report.states == {
+        "test:fig1": "done",
+        "test:fig2": "missing",
+        "test:fig3": "failed",
+        "test:fig4": "failed",
+    }
+
+
+def test_the_report_shows_the_error(run):
+    """The page has the last lines of the traceback, as text and not as markup."""
+    report, _ = run
+    assert "ZeroDivisionError: a <deliberate> failure" in report.errors["bad"]
+    page = report.index.read_text(encoding="utf-8")
+    assert "ZeroDivisionError: a &lt;deliberate&gt; failure" in page
+    assert "deeper()" in page
+    assert "\x1b" not in page
+
+
+def test_progress_names_notebooks_lines_and_failures(run):
+    """Lines on stderr are passed on, parameters have arrived, and failures are named."""
+    _, messages = run
+    assert "bad (1 of 3)" in messages
+    assert any(line.startswith("  failed after") and "ZeroDivision" in line for line in messages)
+    assert "  drawing quick 7" in messages
+    assert messages[-1].startswith("report: ")
+
+
+def test_outputs_lie_in_the_folder(run):
+    """Figures as HTML and JSON, tables as CSV, executed notebooks, one plotly.js."""
+    out = run[0].out
+    assert json.loads((out / "figures" / "test_fig1.json").read_text())["data"][0]["y"] == [3, 5]
+    table = pd.read_csv(out / "tables" / "test_fig1.csv", index_col=0)
+    assert table["error ours"].tolist()[0] == 0.5
+    assert (out / "figures" / "plotly.min.js").stat().st_size > 1e6
+    assert (out / "figures" / "test_fig1.html").stat().st_size < 1e5
+    assert nbformat.read(out / "notebooks" / "good.ipynb", 4).cells[-1].execution_count
+    assert (out / "notebooks" / "bad.ipynb").is_file()
+
+
+def test_everything_the_report_loads_or_links_is_in_the_folder(run):
+    """The page opens from file:// without a network; only citations lead outside."""
+    report, _ = run
+    page = _Page(report.index)
+    for address in [*page.loads, *page.links]:
+        if address.startswith("#"):
+            assert address[1:] in page.ids
+        elif address.startswith("http"):
+            assert address in ("http://mocap.cs.cmu.edu", "https://archive.ics.uci.edu")
+            assert address not in page.loads
+        elif "absent" not in address:
+            assert (report.out / address).is_file(), address
+
+
+def test_the_report_is_well_formed(run):
+    """Ids are unique, there is one main heading, and images have a text."""
+    page = _Page(run[0].index)
+    assert len(page.ids) == len(set(page.ids))
+    assert page.tags.count("h1") == 1
+    assert page.tags.count("h2") == 4 + 1
+    assert all(image["alt"] for image in page.images)
+
+
+def test_the_report_shows_tables_and_reasons(run):
+    """Cells are rounded and signed, captions escaped, and what is missing has its reason."""
+    text = run[0].index.read_text(encoding="utf-8")
+    cells = re.findall(r"<td class=\"[^\"]*\">([^<]*)</td>", text)
+    assert cells == ["0.500", "+0.250", "\N{EN DASH}", "\N{MINUS SIGN}1.000"]
+    assert "A line &amp; &lt;two&gt; points." in text
+    assert "The data for it are missing." in text
+
+
+def test_a_second_run_forgets_the_failure(run, tmp_path: Path):
+    """When the notebook is mended, its item is made and the rest of the folder is kept."""
+    report, _ = run
+    _write_notebook(tmp_path / "bad.ipynb", GOOD.replace("fig1", "fig3").replace("fig2", "fig9"))
+    again = reproduce_items(
+        [FIG3], tmp_path, profile="quick", jobs=1, out=report.out, seed=0, progress=lambda _: None
+    )
+    assert not again.failed
+    assert again.states == {"test:fig3": "done"}
+    assert item_state(FIG1, report.out) == "done"
+
+
+def test_arguments_are_checked_before_anything_runs(tmp_path: Path):
+    """A wrong id, profile, number of jobs or folder is one plain error."""
+    with pytest.raises(WorkbenchError, match="profile: got 'fast', want one of quick, full"):
+        reproduce(profile="fast", out=tmp_path)
+    with pytest.raises(WorkbenchError, match="jobs: got 0"):
+        reproduce(jobs=0, out=tmp_path)
+    with pytest.raises(WorkbenchError, match="id: got 'fig1'"):
+        reproduce(["fig1"], out=tmp_path)
+    (tmp_path / "file").write_text("")
+    with pytest.raises(WorkbenchError, match="out: cannot write to"):
+        reproduce(out=tmp_path / "file" / "folder")
+    assert [path.name for path in tmp_path.iterdir()] == ["file"]
+
+
+def test_items_of_an_empty_folder_are_missing(tmp_path: Path):
+    """Before anything ran, each item is missing."""
+    assert {item_state(item, tmp_path / "nowhere") for item in ITEMS} == {"missing"}
+
+
+def test_the_kernel_is_this_interpreter(tmp_path: Path, monkeypatch):
+    """A kernel "python3" of the user that is another program is not taken."""
+    decoy = tmp_path / "kernels" / "python3"
+    decoy.mkdir(parents=True)
+    (decoy / "kernel.json").write_text(
+        json.dumps({"argv": ["false"], "display_name": "decoy", "language": "python"})
+    )
+    monkeypatch.setenv("JUPYTER_PATH", str(tmp_path))
+    from jupyter_client.kernelspec import KernelSpecManager
+
+    assert KernelSpecManager().get_kernel_spec("python3").argv == ["false"]
+    with this_interpreter():
+        assert KernelSpecManager().get_kernel_spec("python3").argv[0] == sys.executable
+    assert os.environ["JUPYTER_PATH"] == str(tmp_path)
+
+
+FIGURE = '{"data": [{"type": "scatter", "x": [1, 2], "y": [1, 2]}], "layout": {"height": 300}}'
+
+
+def test_figures_become_images(tmp_path: Path):
+    """With a browser, the PNG lies beside the figure."""
+    if chromium_path() is None:
+        assert os.environ.get("CI") != "true", "no chromium in CI"
+        pytest.skip("no chromium on this machine: figures cannot be rendered")
+    (tmp_path / "figure.json").write_text(FIGURE)
+    assert write_pngs([tmp_path / "figure.json"]) == ""
+    assert (tmp_path / "figure.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_without_a_browser_there_is_a_notice(tmp_path: Path, monkeypatch):
+    """No browser is one sentence, not an error."""
+    (tmp_path / "figure.json").write_text(FIGURE)
+    monkeypatch.setenv("PATH", str(Path(sys.executable).parent))
+    monkeypatch.setenv("BROWSER_PATH", str(tmp_path / "no-browser"))
+    notice = write_pngs([tmp_path / "figure.json"])
+    assert re.fullmatch(r"No PNG images: .*(hrom|browser).*", notice)
+    assert not (tmp_path / "figure.png").exists()
+
+
+def test_rendering_has_a_time_limit(tmp_path: Path, monkeypatch):
+    """A renderer that hangs is ended with its children, and the notice says so."""
+    started: list[subprocess.Popen] = []
+    popen = subprocess.Popen
+
+    def hang(_, **options):
+        process = popen([sys.executable, "-c", "import time; time.sleep(600)"], **options)
+        started.append(process)
+        return process
+
+    monkeypatch.setattr(images.subprocess, "Popen", hang)
+    notice = write_pngs([tmp_path / "figure.json"], seconds=0.5)
+    assert notice == "No PNG images: the browser did not finish within 0 s."
+    assert started[0].returncode is not None
+
+
+@pytest.mark.parametrize(
+    ("value", "signed", "text"),
+    [
+        (0.12345, False, "0.123"),
+        (0.12345, True, "+0.123"),
+        (-2.0, False, "\N{MINUS SIGN}2.000"),
+        (3, True, "+3"),
+        (1234567.0, False, "1.23e+06"),
+        (None, False, "\N{EN DASH}"),
+        ("3 of 10", False, "3 of 10"),
+        (True, False, "True"),
+    ],
+)
+def test_cells_are_written_for_readers(value, signed, text):
+    """Three decimals, a true minus sign, a dash for what is not there."""
+    assert format_cell(value, signed=signed) == text
