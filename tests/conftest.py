@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from workbench.cli import main
 from workbench.mocap.motion import Motion
 from workbench.mocap.rotations import rotations_from_euler
 from workbench.mocap.skeleton import EndSite, Skeleton
@@ -57,3 +59,17 @@ def waving(arm: Skeleton) -> Motion:
     )
     path = np.stack([t, np.sin(t), 0 * t], axis=1)
     return Motion(arm, rotations_from_euler("ZYX", angles), path, 1 / 30, name="waving")
+
+
+@pytest.fixture
+def run(monkeypatch, capsys):
+    """Run the command line in this process; give status, standard output and error."""
+
+    def call(*words):
+        monkeypatch.setattr(sys, "argv", ["workbench", *map(str, words)])
+        with pytest.raises(SystemExit) as ending:
+            main()
+        captured = capsys.readouterr()
+        return ending.value.code, captured.out, captured.err
+
+    return call

@@ -60,7 +60,9 @@ def finite(array: NDArray[np.float64], name: str) -> NDArray[np.float64]:
     return array
 
 
-def control_point_indices(indices: ArrayLike, n_samples: int) -> NDArray[np.intp]:
+def control_point_indices(
+    indices: ArrayLike, n_samples: int, *, at_least: int = 1
+) -> NDArray[np.intp]:
     """Check the indices of control points or keyframes.
 
     Parameters
@@ -69,6 +71,8 @@ def control_point_indices(indices: ArrayLike, n_samples: int) -> NDArray[np.intp
         Sorted, each once.
     n_samples : int
         Number of samples that they index.
+    at_least : int
+        How many are needed.
 
     Returns
     -------
@@ -80,10 +84,10 @@ def control_point_indices(indices: ArrayLike, n_samples: int) -> NDArray[np.intp
         If they are not integers, out of range, unsorted or repeated.
     """
     array = np.asarray(indices)
-    if array.ndim != 1 or array.size == 0 or not np.issubdtype(array.dtype, np.integer):
+    if array.ndim != 1 or not np.issubdtype(array.dtype, np.integer) or len(array) < at_least:
         raise WorkbenchError(
             f"control points: got {array.dtype} of shape {array.shape}, "
-            "want a list of sample indices"
+            f"want a list of at least {at_least} sample indices"
         )
     if array.min() < 0 or array.max() >= n_samples:
         raise WorkbenchError(

@@ -11,7 +11,6 @@ import pandas as pd
 import pytest
 
 from tests.conftest import find_clip
-from workbench.cli import main
 
 PROJECT_REPORT = {
     "stress",
@@ -27,20 +26,6 @@ PROJECT_REPORT = {
 
 
 @pytest.fixture
-def run(monkeypatch, capsys):
-    """Run the command line in this process; give status, standard output and error."""
-
-    def call(*words):
-        monkeypatch.setattr(sys, "argv", ["workbench", *map(str, words)])
-        with pytest.raises(SystemExit) as ending:
-            main()
-        captured = capsys.readouterr()
-        return ending.value.code, captured.out, captured.err
-
-    return call
-
-
-@pytest.fixture
 def table(tmp_path):
     """Give a small CSV file of a user's own."""
     path = tmp_path / "own.csv"
@@ -53,7 +38,16 @@ def test_help_names_what_exists_and_nothing_else(run):
     """Every command has a line; methods of later versions are not offered."""
     status, out, _ = run("--help")
     assert status == 0
-    for command in ("datasets", "project", "keyframes", "compact", "reproduce", "lab", "app"):
+    for command in (
+        "datasets",
+        "project",
+        "keyframes",
+        "compact",
+        "expand",
+        "reproduce",
+        "lab",
+        "app",
+    ):
         assert f"\n  {command} " in out
     _, out, _ = run("project", "--help")
     assert "pca, mds, isomap, lle, tsne, umap" in " ".join(out.split())

@@ -15,7 +15,9 @@ from workbench.mocap.rotations import (
     euler_from_rotations,
     geodesic_angles,
     nearest_rotations,
+    rotation_vectors,
     rotations_from_euler,
+    rotations_from_vectors,
     unwrap_degrees,
 )
 
@@ -92,6 +94,16 @@ def test_nearest_rotation_agrees_with_svd_on_many_matrices():
     matrices = np.random.default_rng(2).normal(size=(2000, 3, 3))
     expected = np.stack([nearest_by_svd(m) for m in matrices])
     assert np.abs(nearest_rotations(matrices) - expected).max() < 1e-9
+
+
+@given(arrays(np.float64, (4, 3), elements=st.floats(-1.8, 1.8)))
+def test_rotation_vectors_round_trip(vectors):
+    """Vectors shorter than π come back, and give rotations by their length about themselves."""
+    rotations = rotations_from_vectors(vectors)
+    assert np.abs(rotation_vectors(rotations) - vectors).max() < 1e-7
+    lengths = np.linalg.norm(vectors, axis=1)
+    assert np.allclose(geodesic_angles(rotations, np.eye(3)), lengths, atol=1e-7)
+    assert np.allclose(np.einsum("nij,nj->ni", rotations, vectors), vectors, atol=1e-12)
 
 
 def test_geodesic_angle_is_exact_near_zero():

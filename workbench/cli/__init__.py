@@ -29,6 +29,7 @@ for command, summary in (
     (methods.project, "Project a table or a motion to the plane."),
     (methods.keyframes, "Select keyframes of a motion."),
     (methods.compact, "Keep keyframes, rebuild the rest, measure the loss."),
+    (methods.expand, "Rebuild a motion from a compact file."),
     (reproduction.reproduce, "Regenerate figures and tables of the theses."),
     (serve.lab, "Open the notebooks in JupyterLab."),
     (serve.app, "Serve the dashboards with Voila."),

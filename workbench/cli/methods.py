@@ -1,4 +1,4 @@
-"""The commands ``project``, ``keyframes`` and ``compact``."""
+"""The commands ``project``, ``keyframes``, ``compact`` and ``expand``."""
 
 from __future__ import annotations
 
@@ -88,6 +88,9 @@ def compact(
     optimize: options.Optimize = False,
     optimizer: options.Optimizer = None,
     seed: options.Seed = 0,
+    out: Annotated[
+        Path | None, typer.Option(help="Compact file to write; expand makes a BVH file of it.")
+    ] = None,
     json: options.Json = False,
 ) -> None:
     """Keep the keyframes of a motion, rebuild the rest and measure what was lost.
@@ -101,7 +104,9 @@ def compact(
     if interpolator is not None and chosen is not None:
         raise WorkbenchError("--optimize: got it with --interpolator, want it with --projector")
     amount = options.count_or_ratio(count, ratio)
+    _check_folder(out)
 
+    from workbench.compact import compact_motion, write_compact
     from workbench.quality.reconstruction import compression_ratio, position_error
     from workbench.schemes import SpatialResult, SpatialScheme, TemporalScheme
 
@@ -112,6 +117,8 @@ def compact(
     else:
         scheme = SpatialScheme(projector, selector, optimizer=chosen)
     result = scheme.run(space, random_state=seed, **amount)
+    if out is not None:
+        write_compact(compact_motion(result, interpolator), out)
 
     keys = result.control_points
     values: dict[str, Any] = {
@@ -131,6 +138,21 @@ def compact(
     values["evaluations"] = result.evaluations if isinstance(result, SpatialResult) else 0
     values["seconds"] = result.timings.total
     options.report(values, json)
+
+
+def expand(
+    file: Annotated[Path, typer.Argument(help="A compact file.")],
+    out: Annotated[Path, typer.Option(help="BVH file to write.")],
+) -> None:
+    """Rebuild a motion from a compact file and write it as BVH."""
+    if out.suffix.lower() != ".bvh":
+        raise WorkbenchError(f"--out: got {str(out)!r}, want a name ending in .bvh")
+    _check_folder(out)
+
+    from workbench.compact import read_compact
+    from workbench.mocap import write_bvh
+
+    write_bvh(read_compact(file).expand(), out)
 
 
 def _load(source: str, label: str | None = None, standardize: bool = False) -> Space:
@@ -162,9 +184,14 @@ def _table_writer(out: Path | None) -> Any:
     }
     if out.suffix.lower() not in writers:
         raise WorkbenchError(f"--out: got {str(out)!r}, want a name ending in .csv or .parquet")
-    if not out.resolve().parent.is_dir():
-        raise WorkbenchError(f"--out: there is no folder {str(out.resolve().parent)!r}")
+    _check_folder(out)
     return writers[out.suffix.lower()]
+
+
+def _check_folder(out: Path | None) -> None:
+    """Refuse an output file whose folder is missing, before anything is computed."""
+    if out is not None and not out.resolve().parent.is_dir():
+        raise WorkbenchError(f"--out: there is no folder {str(out.resolve().parent)!r}")
 
 
 def _embedding_table(result: SpatialResult) -> Any:

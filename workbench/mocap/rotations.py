@@ -116,6 +116,54 @@ def euler_from_rotations(order: str, rotations: ArrayLike) -> NDArray[np.float64
     return np.degrees(np.stack([first, second, third], axis=-1))
 
 
+def rotation_vectors(rotations: ArrayLike) -> NDArray[np.float64]:
+    """Write rotations as axis times angle.
+
+    Parameters
+    ----------
+    rotations : array-like of shape (..., 3, 3)
+        Rotation matrices.
+
+    Returns
+    -------
+    ndarray of shape (..., 3)
+        Vectors along the axes, as long as the angles in radians, at most π.
+
+    Examples
+    --------
+    >>> rotation_vectors(axis_rotation("Y", 90.0)).round(4)
+    array([0.    , 1.5708, 0.    ])
+    """
+    from scipy.spatial.transform import Rotation
+
+    matrices = np.asarray(rotations, dtype=np.float64)
+    vectors = Rotation.from_matrix(matrices.reshape(-1, 3, 3)).as_rotvec()
+    return vectors.reshape(matrices.shape[:-1])
+
+
+def rotations_from_vectors(vectors: ArrayLike) -> NDArray[np.float64]:
+    """Turn rotation vectors into matrices; undoes :func:`rotation_vectors`.
+
+    Parameters
+    ----------
+    vectors : array-like of shape (..., 3)
+        Axes times angles in radians.
+
+    Returns
+    -------
+    ndarray of shape (..., 3, 3)
+
+    Examples
+    --------
+    >>> np.allclose(rotations_from_vectors([np.pi / 2, 0, 0]), axis_rotation("X", 90.0))
+    True
+    """
+    from scipy.spatial.transform import Rotation
+
+    array = np.asarray(vectors, dtype=np.float64)
+    return Rotation.from_rotvec(array.reshape(-1, 3)).as_matrix().reshape(*array.shape, 3)
+
+
 def unwrap_degrees(angles: ArrayLike) -> NDArray[np.float64]:
     """Remove jumps of full turns from angle curves.
 
