@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import os
 from collections.abc import Callable, Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -29,7 +28,7 @@ def browser() -> Iterator[Any]:
         yield found
 
 
-@pytest.fixture()
+@pytest.fixture
 def visit(browser: Any) -> Iterator[Visit]:
     """Open a page, and check at the end that it left no trace outside or in the console."""
     with Visit.to(browser) as visit:
@@ -74,11 +73,11 @@ async ({esm, css, state, width}) => {
 """
 
 
-@pytest.fixture()
-def mount(visit: Visit) -> Callable[..., None]:
-    """Render a widget in the page with a model that needs no kernel."""
+@pytest.fixture
+def mount(visit: Visit) -> Callable[..., Any]:
+    """Render widgets in the page with models that need no kernel."""
 
-    def render(widget: Any, width: int = 700) -> None:
+    def render(widget: Any, width: int = 700) -> Any:
         plain, binary = {}, {}
         for name, value in widget.get_state().items():
             if isinstance(value, bytes):
@@ -86,17 +85,9 @@ def mount(visit: Visit) -> Callable[..., None]:
             elif not name.startswith("_") and name not in ("layout", "tabbable", "tooltip"):
                 plain[name] = value
         state = {"plain": plain, "binary": binary}
-        css = str(widget._css)
-        visit.page.evaluate(
-            _MOUNT, {"esm": str(widget._esm), "css": css, "state": state, "width": width}
-        )
+        css = str(getattr(widget, "_css", ""))
+        arguments = {"esm": str(widget._esm), "css": css, "state": state, "width": width}
+        visit.page.evaluate(_MOUNT, arguments)
+        return visit.page
 
     return render
-
-
-@pytest.fixture()
-def pictures(tmp_path: Path) -> Path:
-    """Choose where pictures for a person to look at go."""
-    folder = Path(os.environ.get("WORKBENCH_PICTURES", tmp_path))
-    folder.mkdir(parents=True, exist_ok=True)
-    return folder

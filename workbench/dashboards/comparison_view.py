@@ -13,7 +13,7 @@ import numpy as np
 from workbench.dashboards.controls import Controls
 from workbench.dashboards.quality_view import QualityView
 from workbench.dashboards.session import PanelResult, Summary
-from workbench.widgets import PoseView, SampleDetails, ScatterPanels, joint_sides
+from workbench.widgets import FigureFit, PoseView, SampleDetails, ScatterPanels, joint_sides
 
 _channels = itertools.count(1)
 _ALERT = (
@@ -154,18 +154,22 @@ class ComparisonView:
         self._message.value = "".join(lines)
 
     def _laid_out(self, controls: Controls) -> widgets.Widget:
-        self.scatter.layout = widgets.Layout(flex="1 1 600px", min_width="0")
+        self.scatter.layout = widgets.Layout(flex="3 1 440px", min_width="0")
         for view in (self.pose, self.details):
-            view.layout = widgets.Layout(flex="1 1 250px", min_width="0", display="none")
+            view.layout = widgets.Layout(flex="1 1 210px", min_width="0", display="none")
         row = {"flex_flow": "row wrap", "grid_gap": "8px 16px", "align_items": "flex-start"}
         progress = widgets.Box(
             [self.again, self.cancel, self._bar, self._doing],
             layout=widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="4px 8px"),
         )
-        table = widgets.Box([self.quality.table], layout=widgets.Layout(flex="1 1 420px"))
-        curves = widgets.Box(
-            [self.quality.figure], layout=widgets.Layout(flex="1 1 380px", min_width="0")
+        table, curves = (
+            widgets.Box([self.quality.table]),
+            widgets.Box([self.quality.figure, FigureFit()]),
         )
+        for box in (table, curves):
+            box.layout = widgets.Layout(flex="1 1 360px", min_width="0")
+        # A figure has no layout of its own in ipywidgets' sense: its name is taken by plotly's.
+        curves.add_class("wb-curves")
         views = [self.scatter, self.pose, self.details]
         return widgets.VBox(
             [
@@ -182,10 +186,7 @@ class ComparisonView:
 def _panel(state: PanelState) -> dict[str, str]:
     if state.result is not None:
         quality = state.result.quality
-        detail = (
-            f"stress {quality.stress:.3g} · trustworthiness {quality.trustworthiness:.3f} · "
-            f"error {state.result.error:.3g}"
-        )
+        detail = f"trustworthiness {quality.trustworthiness:.3f} · error {state.result.error:.3g}"
         return {"title": state.title, "detail": detail, "state": "ready"}
     if state.failure:
         return {"title": state.title, "message": state.failure, "state": "failed"}

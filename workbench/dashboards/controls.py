@@ -9,7 +9,7 @@ import ipywidgets as widgets
 from workbench.dashboards.quality_view import LETTERS
 from workbench.dashboards.session import Panel, Summary
 
-_WRAP = widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="4px 12px")
+_FITTING = {"description_width": "initial"}
 _OWN = ""  # the drop-down's value while data come from elsewhere
 
 
@@ -33,29 +33,40 @@ class Controls:
         panels: Sequence[Panel],
     ) -> None:
         self.data = widgets.Dropdown(
-            options=[("your own (below)", _OWN), *datasets],
+            options=[("your own", _OWN), *datasets],
             description="Data",
-            layout=widgets.Layout(width="440px", max_width="98%"),
+            style=_FITTING,
+            layout=widgets.Layout(flex="1 1 300px", max_width="520px"),
+        )
+        self.own = widgets.ToggleButton(
+            description="Own file",
+            icon="folder-open",
+            tooltip="Open a file of your own",
+            layout=widgets.Layout(width="110px"),
         )
         self.path = widgets.Text(
-            placeholder="path of a CSV, TSV, Parquet, ARFF, BVH or AMC file, or a name",
+            placeholder="path of a CSV, TSV, Parquet, ARFF, BVH or AMC file",
             description="File",
-            layout=widgets.Layout(flex="1 1 320px", min_width="240px"),
+            style=_FITTING,
+            layout=widgets.Layout(flex="1 1 300px"),
         )
         self.label = widgets.Text(
             placeholder="optional",
             description="Class column",
-            style={"description_width": "initial"},
-            layout=widgets.Layout(width="220px"),
+            style=_FITTING,
+            layout=widgets.Layout(width="200px"),
         )
-        self.open = widgets.Button(description="Open", tooltip="Load this file")
+        self.open = widgets.Button(
+            description="Open", tooltip="Load this file", layout=widgets.Layout(width="80px")
+        )
         self.standardize = widgets.Checkbox(
-            description="standardize columns", indent=False, layout=widgets.Layout(width="170px")
+            description="standardize columns", indent=False, layout=widgets.Layout(width="160px")
         )
         self.color_by = widgets.Dropdown(
             options=["class", "time", "none"],
             description="Colour by",
-            layout=widgets.Layout(width="190px"),
+            style=_FITTING,
+            layout=widgets.Layout(width="150px"),
         )
         self.ratio = widgets.FloatSlider(
             min=0.01,
@@ -64,24 +75,29 @@ class Controls:
             readout_format=".0%",
             description="Control points",
             continuous_update=False,
-            style={"description_width": "initial"},
-            layout=widgets.Layout(width="330px", max_width="98%"),
+            style=_FITTING,
+            layout=widgets.Layout(width="280px", max_width="98%"),
         )
         self.seed = widgets.BoundedIntText(
             min=0,
             max=2**31 - 1,
             description="Seed",
-            layout=widgets.Layout(width="180px"),
+            style=_FITTING,
+            layout=widgets.Layout(width="110px"),
         )
-        self.count = widgets.ToggleButtons(
+        self.count = widgets.Dropdown(
             options=[2, 3, 4],
             value=len(panels),
             description="Panels",
-            style={"button_width": "42px"},
+            style=_FITTING,
+            layout=widgets.Layout(width="95px"),
         )
         self.projector = [
             widgets.Dropdown(
-                options=projectors, description=letter, layout=widgets.Layout(width="210px")
+                options=projectors,
+                description=letter,
+                style=_FITTING,
+                layout=widgets.Layout(width="120px"),
             )
             for letter in LETTERS
         ]
@@ -90,7 +106,7 @@ class Controls:
                 description="optimized",
                 indent=False,
                 tooltip=f"Optimize the embedding of panel {letter}",
-                layout=widgets.Layout(width="100px"),
+                layout=widgets.Layout(width="90px"),
             )
             for letter in LETTERS
         ]
@@ -101,18 +117,16 @@ class Controls:
         for index, panel in enumerate(_filled_up(panels, projectors)):
             self.projector[index].value = panel.projector
             self.optimized[index].value = panel.optimized
-        self._show_choosers()
-        self.count.observe(lambda _: self._show_choosers(), "value")
-        own = widgets.Accordion([widgets.Box([self.path, self.label, self.open], layout=_WRAP)])
-        own.set_title(0, "Your own file")
-        self.own = own
-        settings = [self.color_by, self.standardize, self.ratio, self.seed]
+        self._own_row = _row([self.path, self.label, self.open])
+        self._show_parts()
+        self.count.observe(lambda _: self._show_parts(), "value")
+        self.own.observe(lambda _: self._show_parts(), "value")
         self.view = widgets.VBox(
             [
-                widgets.Box([self.data, self.count], layout=_WRAP),
-                own,
-                widgets.Box(self._choosers, layout=_WRAP),
-                widgets.Box(settings, layout=_WRAP),
+                _row([self.data, self.own]),
+                self._own_row,
+                _row([self.count, *self._choosers]),
+                _row([self.color_by, self.standardize, self.ratio, self.seed]),
             ]
         )
 
@@ -151,9 +165,16 @@ class Controls:
             self.color_by.value = usual
         self.standardize.disabled = not may_standardize
 
-    def _show_choosers(self) -> None:
+    def _show_parts(self) -> None:
         for index, chooser in enumerate(self._choosers):
             chooser.layout.display = None if index < self.count.value else "none"
+        self._own_row.layout.display = None if self.own.value else "none"
+
+
+def _row(parts: Sequence[widgets.Widget]) -> widgets.Box:
+    """Put controls side by side, in as many lines as the page's width makes necessary."""
+    layout = widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="2px 14px")
+    return widgets.Box(list(parts), layout=layout)
 
 
 def _filled_up(panels: Sequence[Panel], projectors: Sequence[str]) -> list[Panel]:

@@ -68,6 +68,10 @@ _STYLE = """<style>
   border-bottom: 1px solid var(--jp-border-color2, #cccccc); }
 .wb-quality thead th { vertical-align: bottom; font-weight: 600; }
 .wb-quality tbody th { text-align: left; font-weight: 400; }
+.wb-quality td { white-space: nowrap; }
+.wb-quality caption { line-height: 1.35; }
+.wb-curves { overflow: hidden; }
+.wb-curves > * { flex: 1 1 0; min-width: 0; width: 100%; }
 .wb-quality td.best { font-weight: 700; }
 .wb-quality td.best::before { content: "★ "; }
 </style>"""

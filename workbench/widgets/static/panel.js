@@ -1,24 +1,109 @@
-// One scatter panel. It has two canvases: the base holds all samples and is redrawn when
-// data, colours or size change; the overlay holds what follows the mouse, so that a mouse
-// move costs little whatever the number of samples.
+// One scatter panel. It has three canvases, so that a mouse move costs little whatever the
+// number of samples: the base holds all samples and is redrawn when data, colours or size
+// change, the marks hold the selected samples, the top what follows the mouse.
 
 const TIME_STEPS = 64;
 const REACH = 14; // how far from a sample, in pixels, the mouse still hovers it
 const MARGIN = 12;
 
-/** Draw one sample into a small canvas, which is then stamped at every position. */
-function makeSprite(colour, shape, radius) {
+/**
+ * Draw a mark into a small canvas once, and keep its pixels to be stamped many times.
+ * A crisp mark has no soft rim, which takes a third of the time to stamp.
+ */
+function makeSprite(radius, draw, crisp = false) {
   const ratio = window.devicePixelRatio || 1;
   const half = Math.ceil((radius + 1) * ratio);
+  const size = 2 * half;
   const canvas = document.createElement("canvas");
-  canvas.width = canvas.height = 2 * half;
-  const context = canvas.getContext("2d");
+  canvas.width = canvas.height = size;
+  const context = canvas.getContext("2d", { willReadFrequently: true });
   context.translate(half, half);
   context.scale(ratio, ratio);
-  context.fillStyle = colour;
-  tracePath(context, shape, radius);
-  context.fill();
-  return { canvas, half: half / ratio, size: (2 * half) / ratio };
+  draw(context);
+  const { data } = context.getImageData(0, 0, size, size);
+  if (crisp) for (let i = 3; i < data.length; i += 4) data[i] = data[i] < 110 ? 0 : 255;
+  const colours = new Uint32Array(data.buffer);
+  const filled = Array.from(colours.keys()).filter((i) => data[4 * i + 3]);
+  const solid = filled.filter((i) => data[4 * i + 3] === 255);
+  const places = [...solid, ...filled.filter((i) => data[4 * i + 3] < 255)];
+  return {
+    dx: places.map((i) => (i % size) - half),
+    dy: places.map((i) => Math.floor(i / size) - half),
+    colours: Uint32Array.from(places, (i) => colours[i]),
+    solid: solid.length,
+  };
+}
+
+function makeDot(colour, shape, radius, crisp) {
+  // Corners of the shapes reach further out than the radius.
+  return makeSprite(1.3 * radius, (context) => {
+    context.fillStyle = colour;
+    tracePath(context, shape, radius);
+    context.fill();
+  }, crisp);
+}
+
+function makeCross(theme) {
+  return makeSprite(6, (context) => {
+    context.beginPath();
+    for (const slope of [1, -1]) {
+      context.moveTo(-4, -4 * slope);
+      context.lineTo(4, 4 * slope);
+    }
+    context.lineCap = "round";
+    for (const [colour, width] of [[theme.ground, 4], [theme.text, 1.6]]) {
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.stroke();
+    }
+  });
+}
+
+/**
+ * Pixels to stamp sprites on. The canvas could do this itself, but takes ten microseconds for
+ * each stamp where this takes a fraction of one. Marks must lie within the image.
+ */
+class Raster {
+  constructor(context) {
+    const { width, height } = context.canvas;
+    this.image = context.createImageData(width, height);
+    this.bytes = this.image.data;
+    this.pixels = new Uint32Array(this.bytes.buffer);
+  }
+
+  /** Prepare a sprite for this image's width. */
+  fit({ dx, dy, colours, solid }) {
+    return { offsets: Int32Array.from(dx, (x, i) => dy[i] * this.image.width + x), colours, solid };
+  }
+
+  /** Index of the pixel at a position in CSS pixels. */
+  place(x, y) {
+    const ratio = window.devicePixelRatio || 1;
+    return Math.round(y * ratio) * this.image.width + Math.round(x * ratio);
+  }
+
+  stamp({ offsets, colours, solid }, place) {
+    const { pixels } = this;
+    for (let i = 0; i < solid; i++) pixels[place + offsets[i]] = colours[i];
+    for (let i = solid; i < offsets.length; i++) this.blend(place + offsets[i], colours[i]);
+  }
+
+  blend(place, colour) {
+    const at = 4 * place;
+    const under = this.bytes[at + 3];
+    if (under === 0) {
+      this.pixels[place] = colour;
+      return;
+    }
+    const alpha = colour >>> 24;
+    const rest = (under * (255 - alpha)) / 255;
+    const total = alpha + rest;
+    for (let c = 0; c < 3; c++) {
+      const over = (colour >>> (8 * c)) & 255;
+      this.bytes[at + c] = (over * alpha + this.bytes[at + c] * rest) / total;
+    }
+    this.bytes[at + 3] = total;
+  }
 }
 
 function tracePath(context, shape, r) {
@@ -46,7 +131,7 @@ function timeColour(t, theme) {
 function colouring(state, theme) {
   const { n, classes, names, colorBy } = state;
   const swatchOf = new Uint16Array(n);
-  if (colorBy === "class" && classes.length === n) {
+  if (colorBy === "class") {
     swatchOf.set(classes);
     const swatches = names.map((_, i) => [
       theme.palette[i % theme.palette.length],
@@ -66,12 +151,13 @@ function colouring(state, theme) {
 class Panel {
   constructor(label) {
     this.base = element("canvas", { class: "wb-base", "aria-hidden": "true" });
-    this.overlay = element("canvas", { class: "wb-overlay", "aria-hidden": "true" });
+    this.marks = element("canvas", { class: "wb-marks", "aria-hidden": "true" });
+    this.top = element("canvas", { class: "wb-top", "aria-hidden": "true" });
     this.message = element("div", { class: "wb-message" });
     this.plot = element(
       "div",
       { class: "wb-plot", tabindex: "0", role: "application", "aria-describedby": label },
-      [this.base, this.overlay, this.message],
+      [this.base, this.marks, this.top, this.message],
     );
     this.title = element("div", { class: "wb-title" });
     this.detail = element("div", { class: "wb-detail" });
@@ -81,7 +167,7 @@ class Panel {
 
   describe(spec, n, word) {
     this.title.textContent = spec.title ?? "";
-    this.detail.textContent = spec.detail ?? "";
+    this.detail.textContent = this.detail.title = spec.detail ?? "";
     this.message.textContent = spec.message ?? "";
     this.figure.classList.toggle("wb-busy", spec.state === "busy");
     this.figure.classList.toggle("wb-failed", spec.state === "failed");
@@ -112,47 +198,37 @@ class Panel {
     }
   }
 
-  stamp(context, sprite, i) {
-    context.drawImage(sprite.canvas, this.x[i] - sprite.half, this.y[i] - sprite.half, sprite.size, sprite.size);
-  }
-
-  cross(context, samples, theme) {
-    const arm = 4;
-    context.beginPath();
-    for (const i of samples) {
-      const [x, y] = [this.x[i], this.y[i]];
-      context.moveTo(x - arm, y - arm);
-      context.lineTo(x + arm, y + arm);
-      context.moveTo(x - arm, y + arm);
-      context.lineTo(x + arm, y - arm);
-    }
-    context.lineCap = "round";
-    context.strokeStyle = theme.ground;
-    context.lineWidth = 4;
-    context.stroke();
-    context.strokeStyle = theme.text;
-    context.lineWidth = 1.6;
-    context.stroke();
+  /** Stamp samples, and crosses over those that are control points. */
+  stampAll(context, { swatchOf }, samples, crossed) {
+    const { raster, places, dots, cross } = this;
+    raster.pixels.fill(0);
+    for (const i of samples) if (places[i] >= 0) raster.stamp(dots[swatchOf[i]], places[i]);
+    for (const i of crossed) if (places[i] >= 0) raster.stamp(cross, places[i]);
+    context.putImageData(raster.image, 0, 0);
   }
 
   drawBase(look, controls) {
     const context = fitCanvas(this.base, this.size, this.size);
-    for (let i = 0; i < this.x.length; i++) {
-      if (this.x[i] === this.x[i]) this.stamp(context, look.sprites[look.swatchOf[i]], i);
-    }
-    this.cross(context, controls, look.theme);
-    fitCanvas(this.overlay, this.size, this.size);
+    fitCanvas(this.marks, this.size, this.size);
+    fitCanvas(this.top, this.size, this.size);
+    const raster = new Raster(context);
+    this.raster = raster;
+    this.dots = look.dots.map((sprite) => raster.fit(sprite));
+    this.cross = raster.fit(look.cross);
+    // A sample without a position has no pixel.
+    this.places = Int32Array.from(this.x, (x, i) => (x === x ? raster.place(x, this.y[i]) : -1));
+    this.stampAll(context, look, this.x.keys(), controls);
   }
 
-  drawOverlay(look, chosen, isControl, hovered, outline) {
-    const context = this.overlay.getContext("2d");
+  drawMarks(look, chosen, isControl) {
+    const context = this.marks.getContext("2d");
+    if (chosen.length) this.stampAll(context, look, chosen, chosen.filter((i) => isControl[i]));
+    else context.clearRect(0, 0, this.size, this.size);
+  }
+
+  drawTop(look, hovered, outline) {
+    const context = this.top.getContext("2d");
     context.clearRect(0, 0, this.size, this.size);
-    const crossed = [];
-    for (const i of chosen) {
-      this.stamp(context, look.sprites[look.swatchOf[i]], i);
-      if (isControl[i]) crossed.push(i);
-    }
-    if (crossed.length) this.cross(context, crossed, look.theme);
     if (outline) this.drawOutline(context, outline, look.theme);
     if (hovered >= 0 && this.x[hovered] === this.x[hovered]) {
       for (const [colour, width] of [[look.theme.ground, 5], [look.theme.text, 2]]) {
@@ -188,15 +264,23 @@ class Panel {
     return best;
   }
 
+  withinBox([x0, y0], [x1, y1]) {
+    const [left, right, top, bottom] = [Math.min(x0, x1), Math.max(x0, x1), Math.min(y0, y1), Math.max(y0, y1)];
+    const { x, y } = this;
+    const found = [];
+    for (let i = 0; i < x.length; i++) {
+      if (x[i] >= left && x[i] <= right && y[i] >= top && y[i] <= bottom) found.push(i);
+    }
+    return found;
+  }
+
   /** Samples within a closed polygon, by the even-odd rule. */
   within(polygon) {
     const xs = polygon.map(([x]) => x);
     const ys = polygon.map(([, y]) => y);
-    const box = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
     const found = [];
-    for (let i = 0; i < this.x.length; i++) {
+    for (const i of this.withinBox([Math.min(...xs), Math.min(...ys)], [Math.max(...xs), Math.max(...ys)])) {
       const [x, y] = [this.x[i], this.y[i]];
-      if (x < box[0] || x > box[1] || y < box[2] || y > box[3] || x !== x) continue;
       let inside = false;
       for (let a = 0, b = xs.length - 1; a < xs.length; b = a++) {
         const crosses = ys[a] > y !== ys[b] > y;

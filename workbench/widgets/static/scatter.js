@@ -2,9 +2,10 @@
 
 const CLICK = 4; // a shorter drag is a click
 const NARROWEST = 230;
+const CRISP = 5000; // from this many samples on, soft rims cannot be seen
 const HINT =
-  "Drag to select, Shift adds, Escape clears. With a panel in focus: arrow keys move from " +
-  "sample to sample (up and down by ten), Enter or Space selects.";
+  "Drag or click to select, Shift adds, Escape clears. In a focused panel the arrow keys move " +
+  "from sample to sample, up and down by ten; Enter or Space selects.";
 
 class Scatter {
   constructor(model, root, signal) {
@@ -77,7 +78,8 @@ class Scatter {
       colorBy: this.model.get("color_by"),
       word: this.model.get("sample_word") || "sample",
     };
-    const { n } = this.state;
+    const { n, classes } = this.state;
+    if (classes.length !== n && this.state.colorBy === "class") this.state.colorBy = "none";
     this.controls = [...typed(this.model.get("control_points"), Int32Array)].filter((i) => i < n);
     this.isControl = new Uint8Array(n);
     for (const i of this.controls) this.isControl[i] = 1;
@@ -91,7 +93,7 @@ class Scatter {
     const { n } = this.state;
     this.chosen = [...typed(this.model.get("selection"), Int32Array)].filter((i) => i < n);
     this.tellSelection();
-    this.drawOverlays();
+    this.drawMarks();
   }
 
   restyle() {
@@ -99,8 +101,8 @@ class Scatter {
     const { n } = this.state;
     const radius = n > 8000 ? 1.6 : n > 2000 ? 2.2 : n > 500 ? 2.8 : 3.6;
     const { swatchOf, swatches } = colouring(this.state, theme);
-    const sprites = swatches.map(([colour, shape]) => makeSprite(colour, shape, radius));
-    this.look = { theme, radius, swatchOf, swatches, sprites };
+    const dots = swatches.map(([colour, shape]) => makeDot(colour, shape, radius, n > CRISP));
+    this.look = { theme, radius, swatchOf, swatches, dots, cross: makeCross(theme) };
     this.drawLegend();
     if (this.model.get("theme") !== theme.name) {
       this.model.set("theme", theme.name);
@@ -123,14 +125,21 @@ class Scatter {
       panel.drawBase(this.look, this.controls);
     });
     this.tellSelection();
-    this.drawOverlays();
+    this.drawMarks();
   }
 
-  drawOverlays() {
+  drawMarks() {
+    for (const panel of this.panels) {
+      if (panel.size) panel.drawMarks(this.look, this.chosen, this.isControl);
+    }
+    this.drawTop();
+  }
+
+  drawTop() {
     for (const panel of this.panels) {
       if (!panel.size) continue;
       const outline = this.drag?.panel === panel && this.drag.moved ? this.outline() : null;
-      panel.drawOverlay(this.look, this.chosen, this.isControl, this.hovered, outline);
+      panel.drawTop(this.look, this.hovered, outline);
     }
   }
 
@@ -139,8 +148,8 @@ class Scatter {
     const items = [];
     if (colorBy === "class") {
       names.forEach((name, group) => {
-        const [colour, shape] = this.look.swatches[group];
-        const item = element("button", { type: "button", title: `Select all of class ${name}` }, [this.swatch(colour, shape), name]);
+        const mark = this.legendMark(makeDot(...this.look.swatches[group], 4));
+        const item = element("button", { type: "button", title: `Select all of class ${name}` }, [mark, name]);
         item.addEventListener("click", ({ shiftKey }) => {
           const members = [];
           classes.forEach((c, i) => c === group && members.push(i));
@@ -156,25 +165,18 @@ class Scatter {
     }
     if (this.controls.length) {
       const text = `control point (${this.controls.length})`;
-      items.push(element("span", { class: "wb-mark" }, [this.crossSwatch(), text]));
+      items.push(element("span", { class: "wb-mark" }, [this.legendMark(this.look.cross), text]));
     }
     this.legend.replaceChildren(...items);
   }
 
-  swatch(colour, shape) {
-    const canvas = element("canvas", { "aria-hidden": "true", style: "width: 12px; height: 12px" });
-    const context = fitCanvas(canvas, 12, 12);
-    context.translate(6, 6);
-    context.fillStyle = colour;
-    tracePath(context, shape, 4.2);
-    context.fill();
-    return canvas;
-  }
-
-  crossSwatch() {
-    const canvas = element("canvas", { "aria-hidden": "true", style: "width: 12px; height: 12px" });
-    const mark = { x: [6], y: [6] };
-    Panel.prototype.cross.call(mark, fitCanvas(canvas, 12, 12), [0], this.look.theme);
+  /** Show a mark in the legend as it is in the panels. */
+  legendMark(sprite) {
+    const canvas = element("canvas", { "aria-hidden": "true", style: "width: 14px; height: 14px" });
+    const context = fitCanvas(canvas, 14, 14);
+    const raster = new Raster(context);
+    raster.stamp(raster.fit(sprite), raster.place(7, 7));
+    context.putImageData(raster.image, 0, 0);
     return canvas;
   }
 
@@ -184,7 +186,7 @@ class Scatter {
     this.chosen = [...new Set(samples)].sort((a, b) => a - b);
     this.tellSelection();
     this.live.textContent = this.count.textContent || "selection cleared";
-    this.drawOverlays();
+    this.drawMarks();
     this.model.set("selection", new DataView(Int32Array.from(this.chosen).buffer));
     this.model.save_changes();
   }
@@ -203,7 +205,7 @@ class Scatter {
     this.hoverText.textContent = sample < 0 ? "" : this.name(sample);
     if (spoken) this.live.textContent = this.name(sample);
     announceHover(this.model.get("channel"), sample);
-    this.drawOverlays();
+    this.drawTop();
   }
 
   name(sample) {
@@ -251,10 +253,11 @@ class Scatter {
     this.drag.moved ||= Math.hypot(x - path[0][0], y - path[0][1]) >= CLICK;
     if (!this.drag.moved) return;
     const { before } = this.drag;
-    const found = panel.within(this.outline());
+    const lasso = this.mode === "lasso";
+    const found = lasso ? panel.within(path) : panel.withinBox(path[0], [x, y]);
     this.chosen = before.length ? [...new Set([...before, ...found])] : found;
     this.tellSelection();
-    this.drawOverlays();
+    this.drawMarks();
   }
 
   outline() {
@@ -279,7 +282,7 @@ class Scatter {
     this.chosen = this.drag.kept;
     this.drag = null;
     this.tellSelection();
-    this.drawOverlays();
+    this.drawMarks();
   }
 
   toggle(sample) {

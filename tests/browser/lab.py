@@ -1,0 +1,103 @@
+"""Start JupyterLab with a folder of notebooks, away from the user's own settings."""
+
+from __future__ import annotations
+
+import json
+import os
+import secrets
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import workbench
+
+_START_LIMIT = 90.0
+
+
+@dataclass(frozen=True)
+class Lab:
+    """A running JupyterLab.
+
+    Attributes
+    ----------
+    address : str
+        Where it listens, on the loopback.
+    token : str
+        What lets a browser in.
+    folder : Path
+        Its notebooks.
+    """
+
+    address: str
+    token: str
+    folder: Path
+
+    def page(self, notebook: str) -> str:
+        """Address of a notebook in a workspace of its own."""
+        return f"{self.address}lab/tree/{notebook}?reset&token={self.token}"
+
+
+@contextmanager
+def running_lab(folder: Path, notebooks: Path, environment: dict[str, str]) -> Iterator[Lab]:
+    """Start JupyterLab on a folder and end it with everything that it started.
+
+    Parameters
+    ----------
+    folder : Path
+        An empty folder for settings and logs.
+    notebooks : Path
+        The notebooks to serve.
+    environment : dict of str to str
+        Variables for the server and its kernels, beside those of this process.
+    """
+    settings = folder / "config" / "labconfig"
+    settings.mkdir(parents=True)
+    # Asking for news would leave the machine.
+    quiet = {"disabledExtensions": {"@jupyterlab/apputils-extension:announcements": True}}
+    (settings / "page_config.json").write_text(json.dumps(quiet))
+    env = {
+        **os.environ,
+        "JUPYTER_CONFIG_DIR": str(folder / "config"),
+        "JUPYTER_DATA_DIR": str(folder / "data"),
+        "JUPYTER_RUNTIME_DIR": str(folder / "runtime"),
+        "JUPYTERLAB_SETTINGS_DIR": str(folder / "settings"),
+        "JUPYTERLAB_WORKSPACES_DIR": str(folder / "workspaces"),
+        "IPYTHONDIR": str(folder / "ipython"),
+        "PYTHONPATH": str(Path(workbench.__file__).parents[1]),
+        **environment,
+    }
+    token = secrets.token_hex(16)
+    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--port=0"]
+    command += ["--ip=127.0.0.1", f"--IdentityProvider.token={token}", "--expose-app-in-browser"]
+    command += [f"--ServerApp.root_dir={notebooks}"]
+    with (folder / "lab.log").open("w") as log:
+        process = subprocess.Popen(
+            command, env=env, stdout=log, stderr=log, cwd=notebooks, start_new_session=True
+        )
+        try:
+            address = _address(folder, process)
+            yield Lab(address, token, notebooks)
+        finally:
+            os.killpg(process.pid, signal.SIGTERM)
+            try:
+                process.wait(15)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+
+
+def _address(folder: Path, process: subprocess.Popen[bytes]) -> str:
+    """Wait until the server has written down where it listens."""
+    deadline = time.monotonic() + _START_LIMIT
+    while time.monotonic() < deadline and process.poll() is None:
+        for record in (folder / "runtime").glob("jpserver-*.json"):
+            text = record.read_text()
+            if text.endswith("}"):
+                return json.loads(text)["url"].replace("localhost", "127.0.0.1")
+        time.sleep(0.1)
+    raise RuntimeError(f"JupyterLab did not start:\n{(folder / 'lab.log').read_text()[-2000:]}")
