@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -151,6 +152,17 @@ def test_a_worker_that_dies_costs_its_own_runs_only(tmp_path: Path, monkeypatch)
     assert table["status"][2] == "failed"
     assert table["message"][2].startswith("uci/wine, pca, random")
     assert run_grid(runs, tmp_path)["status"].tolist() == ["done"] * 3
+
+
+def test_warnings_are_kept_with_the_result(tmp_path: Path):
+    """What the methods warn of is in the rows of all runs that share the projection."""
+    runs = [
+        Run("uci/iris", SpatialScheme("isomap", optimizer=o), ratio=0.05) for o in (None, "alg12")
+    ]
+    with warnings.catch_warnings(record=True) as printed:
+        table = run_grid(runs, tmp_path)
+    assert printed == []
+    assert all("falls into parts" in text for text in table["warnings"])
 
 
 def test_repetitions_are_one_run(tmp_path: Path):

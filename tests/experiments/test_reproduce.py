@@ -230,13 +230,16 @@ FIGURE = '{"data": [{"type": "scatter", "x": [1, 2], "y": [1, 2]}], "layout": {"
 
 
 def test_figures_become_images(tmp_path: Path):
-    """With a browser, the PNG lies beside the figure."""
+    """With a browser, the PNG lies beside the figure and has the figure's height."""
     if chromium_path() is None:
         assert os.environ.get("CI") != "true", "no chromium in CI"
         pytest.skip("no chromium on this machine: figures cannot be rendered")
     (tmp_path / "figure.json").write_text(FIGURE)
     assert write_pngs([tmp_path / "figure.json"]) == ""
-    assert (tmp_path / "figure.png").read_bytes().startswith(b"\x89PNG")
+    content = (tmp_path / "figure.png").read_bytes()
+    assert content.startswith(b"\x89PNG")
+    width, height = (int.from_bytes(content[at : at + 4], "big") for at in (16, 20))
+    assert (width, height) == (images.SCALE * images.WIDTH, images.SCALE * 300)
 
 
 def test_without_a_browser_there_is_a_notice(tmp_path: Path, monkeypatch):

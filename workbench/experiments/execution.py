@@ -78,7 +78,7 @@ class SharedSteps:
                 embedding,
                 embedding_quality(self.space.distances, embedding),
                 seconds,
-                tuple(dict.fromkeys(str(warning.message) for warning in caught)),
+                _messages(caught),
             )
         return self._projections[key]
 
@@ -98,8 +98,8 @@ def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
     row : dict
         Names of the methods, ``error`` and ``relative_error``, for spatial schemes also
         the quality of the embedding (``stress``, …), of the projection before optimization
-        (``projected_stress``, …) and their ratios, and what the projector warned of;
-        ``seconds_…`` of each step; versions.
+        (``projected_stress``, …) and their ratios; ``warnings``; ``seconds_…`` of each step;
+        versions.
     arrays : dict of str to ndarray
         ``errors`` (n_samples,), ``control_points`` (n_control_points,) and, for spatial
         schemes, ``projected`` and ``embedding`` (n_samples, n_components).
@@ -108,13 +108,15 @@ def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
     seconds: dict[str, float] = {}
     projection: Projection | None = None
     result: Result
-    if isinstance(run.scheme, SpatialScheme):
-        seconds["distances"] = shared.distance_seconds()
-        projection = shared.projection(run.scheme.projector, run.seed)
-        seconds["project"] = projection.seconds
-        result = run.scheme.run(shared.space, projected=projection.embedding, **amount)
-    else:
-        result = run.scheme.run(shared.space, **amount)
+    with warnings.catch_warnings(record=True) as caught:
+        if isinstance(run.scheme, SpatialScheme):
+            seconds["distances"] = shared.distance_seconds()
+            projection = shared.projection(run.scheme.projector, run.seed)
+            seconds["project"] = projection.seconds
+            result = run.scheme.run(shared.space, projected=projection.embedding, **amount)
+        else:
+            result = run.scheme.run(shared.space, **amount)
+    said = [*(projection.warnings if projection else ()), *_messages(caught)]
     seconds.update(result.timings.steps)
     row: Row = {
         **run.specification(),
@@ -123,16 +125,20 @@ def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
         "n_control_points": len(result.control_points),
         "error": result.error,
         "relative_error": result.relative_error,
+        "warnings": "; ".join(said),
     }
     arrays: Arrays = {"errors": result.errors, "control_points": result.control_points}
     if isinstance(result, SpatialResult) and projection is not None:
         row.update(_spatial_values(result, projection.quality))
-        row["warnings"] = "; ".join(projection.warnings)
         arrays.update(projected=result.projected, embedding=result.embedding)
     row.update({f"seconds_{step.replace('-', '_')}": value for step, value in seconds.items()})
     row["seconds_total"] = sum(seconds.values())
     row.update({f"version_{name}": value for name, value in versions().items()})
     return row, arrays
+
+
+def _messages(caught: list[warnings.WarningMessage]) -> tuple[str, ...]:
+    return tuple(dict.fromkeys(str(warning.message) for warning in caught))
 
 
 def _spatial_values(result: SpatialResult, before: EmbeddingQuality) -> Row:

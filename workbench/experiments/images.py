@@ -12,7 +12,8 @@ from pathlib import Path
 #: Seconds for the browser to start, and for each figure.
 START_SECONDS, FIGURE_SECONDS = 60.0, 15.0
 
-WIDTH, SCALE = 1000, 2
+#: Size of an image in pixels; a figure that sets its own height keeps it.
+WIDTH, HEIGHT, SCALE = 1000, 500, 2
 
 
 def write_pngs(figures: Sequence[Path], *, seconds: float | None = None) -> str:
@@ -66,8 +67,9 @@ def _render(paths: Sequence[str]) -> int:
 
     figures = [plotly.io.from_json(Path(path).read_text(encoding="utf-8")) for path in paths]
     images = [str(Path(path).with_suffix(".png")) for path in paths]
+    heights = [figure.layout.height or HEIGHT for figure in figures]
     try:
-        plotly.io.write_images(figures, images, width=WIDTH, scale=SCALE)
+        plotly.io.write_images(figures, images, width=WIDTH, height=heights, scale=SCALE)
     except Exception as error:  # whatever a missing or broken browser raises
         text = str(error).strip()
         if "chrome" in type(error).__name__.lower() or "kaleido requires" in text.lower():
