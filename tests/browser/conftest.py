@@ -59,6 +59,7 @@ async ({esm, css, state, width}) => {
     },
     save_changes() { this.saved += 1; },
     on: (event, act) => (listeners[event] ??= []).push(act),
+    send: () => listeners["msg:custom"].slice().forEach((receive) => window.answer(receive)),
     off: (event, act) => { listeners[event] = (listeners[event] ?? []).filter((a) => a !== act); },
   };
   const el = document.createElement("div");

@@ -13,10 +13,11 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import workbench
 
-_START_LIMIT = 90.0
+_LIMIT = 90  # seconds
 
 
 @dataclass(frozen=True)
@@ -93,7 +94,7 @@ def running_lab(folder: Path, notebooks: Path, environment: dict[str, str]) -> I
 
 def _address(folder: Path, process: subprocess.Popen[bytes]) -> str:
     """Wait until the server has written down where it listens."""
-    deadline = time.monotonic() + _START_LIMIT
+    deadline = time.monotonic() + _LIMIT
     while time.monotonic() < deadline and process.poll() is None:
         for record in (folder / "runtime").glob("jpserver-*.json"):
             text = record.read_text()
@@ -101,3 +102,54 @@ def _address(folder: Path, process: subprocess.Popen[bytes]) -> str:
                 return json.loads(text)["url"].replace("localhost", "127.0.0.1")
         time.sleep(0.1)
     raise RuntimeError(f"JupyterLab did not start:\n{(folder / 'lab.log').read_text()[-2000:]}")
+
+
+def open_and_run(page: Any, lab: Lab, notebook: str) -> None:
+    """Open a notebook in the page and run all its cells."""
+    page.set_default_timeout(_LIMIT * 1000)
+    page.goto(lab.page(notebook))
+    page.wait_for_function("window.jupyterapp?.shell?.currentWidget?.context?.isReady")
+    page.evaluate(
+        """async () => {
+          await jupyterapp.shell.currentWidget.context.sessionContext.ready;
+          await jupyterapp.commands.execute("notebook:run-all-cells");
+        }"""
+    )
+
+
+def wait_for_panels(page: Any, word: str) -> None:
+    """Wait until the comparison shows embeddings of samples that are called so."""
+    page.locator(".wb-plot").first.wait_for()
+    page.wait_for_function(
+        """(word) => {
+          const plots = [...document.querySelectorAll(".wb-plot")];
+          return !document.querySelector(".wb-busy, .wb-failed") &&
+            plots.every((plot) => plot.getAttribute("aria-label").includes(`0 ${word}s`));
+        }""",
+        arg=word,
+    )
+
+
+def choose_data(page: Any, name: str) -> None:
+    """Choose a data set in the comparison's drop-down."""
+    options = page.get_by_label("Data", exact=True).locator("option").all_inner_texts()
+    label = next(text for text in options if text.startswith(f"{name}:"))
+    page.get_by_label("Data", exact=True).select_option(label=label)
+
+
+def in_kernel(page: Any, code: str) -> str:
+    """Run code in the notebook's kernel and give what it prints."""
+    return page.evaluate(
+        """async (code) => {
+          const { kernel } = jupyterapp.shell.currentWidget.context.sessionContext.session;
+          const future = kernel.requestExecute({ code });
+          let printed = "";
+          future.onIOPub = ({ header, content }) => {
+            if (header.msg_type === "stream") printed += content.text;
+            if (header.msg_type === "error") printed += `${content.ename}: ${content.evalue}`;
+          };
+          await future.done;
+          return printed;
+        }""",
+        code,
+    )

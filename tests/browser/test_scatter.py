@@ -84,7 +84,6 @@ def test_a_rectangle_selects_what_is_inside_and_tells_python_once(mount: Callabl
     page = mount(two_panels())
     drag_around(page, 0, 0, 6)
     assert selected(page) == [0, 1, 5, 6]
-    # One save tells the theme if it is dark; none of them comes from moving the mouse.
     assert page.evaluate("mounted[0].model.saved") == 1
 
 
@@ -247,12 +246,22 @@ def test_panels_fit_the_width(mount: Callable, width: int, columns: int) -> None
     assert page.evaluate("mounted[0].el.scrollWidth <= mounted[0].el.clientWidth")
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_the_theme_is_found_and_told(mount: Callable, visit: Any, scheme: str) -> None:
-    """Without JupyterLab the system's theme decides, and Python learns of it."""
+@pytest.mark.parametrize(
+    ("scheme", "lightness"), [("light", 255), ("dark", 22)], ids=["light", "dark"]
+)
+def test_without_jupyterlab_the_system_theme_decides(
+    mount: Callable, visit: Any, scheme: str, lightness: int
+) -> None:
+    """The ground and the marks are those of the theme."""
     visit.page.emulate_media(color_scheme=scheme)
     page = mount(two_panels())
-    assert page.evaluate("mounted[0].model.get('theme')") == scheme
+    ground = page.evaluate("getComputedStyle(document.querySelector('.wb')).backgroundColor")
+    assert ground == f"rgb({lightness}, {lightness}, {lightness})"
+    before = page.evaluate("document.querySelector('.wb-base').toDataURL()")
+    visit.page.emulate_media(color_scheme="dark" if scheme == "light" else "light")
+    page.wait_for_function(
+        "(before) => document.querySelector('.wb-base').toDataURL() !== before", arg=before
+    )
 
 
 def test_a_change_of_theme_redraws(mount: Callable) -> None:
@@ -262,8 +271,9 @@ def test_a_change_of_theme_redraws(mount: Callable) -> None:
     page.evaluate("""() => {
         document.body.style.setProperty("--jp-layout-color0", "#111111");
         document.body.dataset.jpThemeName = "JupyterLab Dark"; }""")
-    page.wait_for_function("mounted[0].model.get('theme') === 'dark'")
-    assert page.evaluate("document.querySelector('.wb-base').toDataURL()") != before
+    page.wait_for_function(
+        "(before) => document.querySelector('.wb-base').toDataURL() !== before", arg=before
+    )
 
 
 def test_a_closed_view_listens_no_more(mount: Callable) -> None:

@@ -13,12 +13,12 @@ import numpy as np
 from workbench.dashboards.controls import Controls
 from workbench.dashboards.quality_view import QualityView
 from workbench.dashboards.session import PanelResult, Summary
-from workbench.widgets import FigureFit, PoseView, SampleDetails, ScatterPanels, joint_sides
+from workbench.widgets import PoseView, SampleDetails, ScatterPanels, joint_sides
 
 _channels = itertools.count(1)
 _ALERT = (
     '<div role="alert" style="border-left: 4px solid var(--jp-error-color1, #b71c1c); '
-    'padding: 2px 8px; line-height: 1.4"><b>{name}</b>: {words}{kept}</div>'
+    'padding: 2px 8px; line-height: 1.4">{words}</div>'
 )
 
 
@@ -71,7 +71,6 @@ class ComparisonView:
         self.pose = PoseView(channel=channel)
         self.details = SampleDetails(channel=channel)
         self.quality = QualityView()
-        self.scatter.observe(lambda change: self.quality.use_theme(change["new"]), "theme")
         self.cancel = widgets.Button(description="Cancel", icon="stop")
         self.again = widgets.Button(
             description="Compute again",
@@ -142,10 +141,9 @@ class ComparisonView:
         """Say what the samples are, how they were treated, and what could not be loaded."""
         lines = []
         if failure:
+            words = failure if failure.startswith(wanted) else f"{wanted}: {failure}"
             kept = f"; still shown: {summary.name}" if summary else ""
-            lines.append(
-                _ALERT.format(name=escape(wanted), words=escape(failure), kept=escape(kept))
-            )
+            lines.append(_ALERT.format(words=escape(words + kept)))
         if summary is not None:
             text = "; ".join([_content(summary), *summary.notes, *notes])
             lines.append(
@@ -162,14 +160,8 @@ class ComparisonView:
             [self.again, self.cancel, self._bar, self._doing],
             layout=widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="4px 8px"),
         )
-        table, curves = (
-            widgets.Box([self.quality.table]),
-            widgets.Box([self.quality.figure, FigureFit()]),
-        )
-        for box in (table, curves):
-            box.layout = widgets.Layout(flex="1 1 360px", min_width="0")
-        # A figure has no layout of its own in ipywidgets' sense: its name is taken by plotly's.
-        curves.add_class("wb-curves")
+        for part in (self.quality.table, self.quality.curves):
+            part.layout = widgets.Layout(flex="1 1 360px", min_width="0")
         views = [self.scatter, self.pose, self.details]
         return widgets.VBox(
             [
@@ -177,7 +169,9 @@ class ComparisonView:
                 progress,
                 self._message,
                 widgets.Box(views, layout=widgets.Layout(**row)),
-                widgets.Box([table, curves], layout=widgets.Layout(**row)),
+                widgets.Box(
+                    [self.quality.table, self.quality.curves], layout=widgets.Layout(**row)
+                ),
             ],
             layout=widgets.Layout(width="100%"),
         )

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from html import escape
-from typing import Any
+from typing import TYPE_CHECKING
 
 import ipywidgets as widgets
 import numpy as np
-import plotly.graph_objects as go
 
 from workbench.dashboards.session import PanelResult
+from workbench.widgets import FigureView
+
+if TYPE_CHECKING:
+    import plotly.graph_objects as go
 
 #: Names of the panels.
 LETTERS = "ABCD"
@@ -53,11 +56,6 @@ _MEASURES: tuple[tuple[str, str, bool, Callable[[PanelResult], float]], ...] = (
         lambda result: result.error,
     ),
 )
-_COLORS = {
-    "light": ("#0072b2", "#d55e00", "#009e73", "#cc79a7"),
-    "dark": ("#4da6e0", "#ff8540", "#2fc79a", "#e39cc3"),
-}
-_INK = {"light": ("#333333", "#d0d0d0"), "dark": ("#dddddd", "#4a4a4a")}
 _DASHES = ("solid", "dash", "dot", "dashdot")
 _SYMBOLS = ("circle", "square", "diamond", "triangle-up")
 _STYLE = """<style>
@@ -70,8 +68,6 @@ _STYLE = """<style>
 .wb-quality tbody th { text-align: left; font-weight: 400; }
 .wb-quality td { white-space: nowrap; }
 .wb-quality caption { line-height: 1.35; }
-.wb-curves { overflow: hidden; }
-.wb-curves > * { flex: 1 1 0; min-width: 0; width: 100%; }
 .wb-quality td.best { font-weight: 700; }
 .wb-quality td.best::before { content: "★ "; }
 </style>"""
@@ -84,51 +80,13 @@ class QualityView:
     ----------
     table : ipywidgets.HTML
         One column for each panel.
-    figure : plotly FigureWidget
-        One curve for each panel, all in one figure, because each figure widget brings
-        5 MB of its own.
+    curves : FigureView
+        One curve for each panel.
     """
 
     def __init__(self) -> None:
-        self.table = widgets.HTML()
-        traces = [
-            go.Scatter(
-                mode="lines+markers",
-                line={"dash": dash},
-                marker={"symbol": symbol, "size": 6},
-                visible=False,
-            )
-            for dash, symbol in zip(_DASHES, _SYMBOLS, strict=True)
-        ]
-        self.figure: Any = go.FigureWidget(traces)
-        # Set here because FigureWidget takes no configuration when it is made.
-        self.figure._config = {"displaylogo": False, "displayModeBar": False, "responsive": True}
-        self.figure.update_layout(
-            title={"text": "Neighbourhood preservation against k", "font": {"size": 14}},
-            xaxis={"title": {"text": "k, number of neighbours"}, "rangemode": "tozero"},
-            yaxis={"title": {"text": "preserved share"}, "range": [0, 1.02]},
-            height=300,
-            margin={"l": 55, "r": 10, "t": 40, "b": 45},
-            legend={"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 1, "xanchor": "right"},
-            showlegend=True,
-        )
-        self.use_theme("light")
-
-    def use_theme(self, theme: str) -> None:
-        """Draw the figure in colours that suit a light or a dark page."""
-        ink, grid = _INK[theme]
-        axis = {"gridcolor": grid, "zerolinecolor": grid, "linecolor": grid}
-        with self.figure.batch_update():
-            self.figure.update_layout(
-                paper_bgcolor="rgba(0,0,0,0)",
-                plot_bgcolor="rgba(0,0,0,0)",
-                font={"color": ink, "size": 12},
-                xaxis=axis,
-                yaxis=axis,
-            )
-            for trace, color in zip(self.figure.data, _COLORS[theme], strict=True):
-                trace.line.color = color
-                trace.marker.color = color
+        self.table = widgets.HTML(layout=widgets.Layout(width="100%"))
+        self.curves = FigureView()
 
     def show(self, titles: Sequence[str], results: Sequence[PanelResult | None]) -> None:
         """Show the results of the panels; None where there is none yet.
@@ -141,16 +99,52 @@ class QualityView:
             As many.
         """
         self.table.value = _STYLE + quality_table(titles, results)
-        with self.figure.batch_update():
-            for index, trace in enumerate(self.figure.data):
-                result = results[index] if index < len(results) else None
-                trace.visible = result is not None
-                if result is not None:
-                    trace.name = LETTERS[index]
-                    trace.x, trace.y = result.k, result.preservation
-                    trace.hovertemplate = (
-                        f"{escape(titles[index])}<br>k = %{{x}}: %{{y:.3f}}<extra></extra>"
-                    )
+        shown = [title for title, result in zip(titles, results, strict=True) if result]
+        self.curves.description = f"Neighbourhood preservation against k of {'; '.join(shown)}"
+        self.curves.figure = preservation_figure(titles, results).to_json()
+
+
+def preservation_figure(titles: Sequence[str], results: Sequence[PanelResult | None]) -> go.Figure:
+    """Draw neighbourhood preservation against k, one curve for each panel.
+
+    A panel without a result has an empty curve, so that the others keep their colours.
+
+    Parameters
+    ----------
+    titles : sequence of str
+        What each panel shows.
+    results : sequence of PanelResult or None
+        As many.
+
+    Returns
+    -------
+    plotly Figure
+        Without colours; :class:`workbench.widgets.FigureView` gives them.
+    """
+    import plotly.graph_objects as go
+
+    figure = go.Figure(layout={"template": "none"})
+    for index, (title, result) in enumerate(zip(titles, results, strict=True)):
+        figure.add_scatter(
+            name=LETTERS[index],
+            x=[] if result is None else result.k.tolist(),
+            y=[] if result is None else result.preservation.tolist(),
+            mode="lines+markers",
+            line={"dash": _DASHES[index]},
+            marker={"symbol": _SYMBOLS[index], "size": 6},
+            hovertemplate=f"{escape(title)}<br>k = %{{x}}: %{{y:.3f}}<extra></extra>",
+            showlegend=result is not None,
+        )
+    figure.update_layout(
+        title={"text": "Neighbourhood preservation against k", "font": {"size": 14}},
+        xaxis={"title": {"text": "k, number of neighbours"}, "rangemode": "tozero"},
+        yaxis={"title": {"text": "preserved share"}, "range": [0, 1.02]},
+        font={"size": 12},
+        height=300,
+        margin={"l": 55, "r": 10, "t": 40, "b": 45},
+        legend={"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 1, "xanchor": "right"},
+    )
+    return figure
 
 
 def quality_table(titles: Sequence[str], results: Sequence[PanelResult | None]) -> str:
@@ -193,7 +187,7 @@ def quality_table(titles: Sequence[str], results: Sequence[PanelResult | None]) 
 
 def _best(values: Sequence[float | None], larger_is_better: bool) -> list[bool]:
     """Mark the best values; values that are shown alike are equally good."""
-    shown = [np.nan if value is None else float(f"{value:.3g}") for value in values]
+    shown = [np.nan if value is None else _rounded(value) for value in values]
     if np.isfinite(shown).sum() < 2:
         return [False] * len(shown)
     best = np.nanmax(shown) if larger_is_better else np.nanmin(shown)
@@ -203,4 +197,9 @@ def _best(values: Sequence[float | None], larger_is_better: bool) -> list[bool]:
 def _cell(value: float | None, best: bool) -> str:
     if value is None:
         return "<td>…</td>"
-    return f"<td{' class=best' if best else ''}>{value:.3g}</td>"
+    return f"<td{' class=best' if best else ''}>{_rounded(value):,.10g}</td>"
+
+
+def _rounded(value: float) -> float:
+    """Keep three digits: more would pretend a precision that seeds take away."""
+    return float(f"{value:.3g}")

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from workbench.widgets.details import SampleDetails
-from workbench.widgets.fit import FigureFit
+from workbench.widgets.figure import FigureView
 from workbench.widgets.pose import PoseView, joint_sides
 from workbench.widgets.scatter import ScatterPanels
 
-__all__ = ["FigureFit", "PoseView", "SampleDetails", "ScatterPanels", "joint_sides"]
+__all__ = ["FigureView", "PoseView", "SampleDetails", "ScatterPanels", "joint_sides"]

@@ -37,8 +37,6 @@ class ScatterPanels(anywidget.AnyWidget):
         What a sample is called: "sample" or "frame".
     channel : str
         Views with the same channel follow the hovered sample.
-    theme : {"light", "dark"}
-        Found out by the browser.
 
     Examples
     --------
@@ -60,4 +58,3 @@ class ScatterPanels(anywidget.AnyWidget):
     selection = SelectionTrait()
     sample_word = traitlets.Unicode("sample").tag(sync=True)
     channel = traitlets.Unicode("").tag(sync=True)
-    theme = traitlets.Unicode("light").tag(sync=True)

@@ -104,10 +104,6 @@ class Scatter {
     const dots = swatches.map(([colour, shape]) => makeDot(colour, shape, radius, n > CRISP));
     this.look = { theme, radius, swatchOf, swatches, dots, cross: makeCross(theme) };
     this.drawLegend();
-    if (this.model.get("theme") !== theme.name) {
-      this.model.set("theme", theme.name);
-      this.model.save_changes();
-    }
     this.resize(true);
   }
 
