@@ -136,13 +136,18 @@ def preservation_figure(titles: Sequence[str], results: Sequence[PanelResult | N
             showlegend=result is not None,
         )
     figure.update_layout(
-        title={"text": "Neighbourhood preservation against k", "font": {"size": 14}},
+        title={
+            "text": "Neighbourhood preservation against k",
+            "font": {"size": 14},
+            "x": 0.02,
+            "xanchor": "left",
+        },
         xaxis={"title": {"text": "k, number of neighbours"}, "rangemode": "tozero"},
         yaxis={"title": {"text": "preserved share"}, "range": [0, 1.02]},
         font={"size": 12},
         height=300,
         margin={"l": 55, "r": 10, "t": 40, "b": 45},
-        legend={"orientation": "h", "y": 1.02, "yanchor": "bottom", "x": 1, "xanchor": "right"},
+        legend={"orientation": "h", "y": 0.02, "yanchor": "bottom", "x": 1, "xanchor": "right"},
     )
     return figure
 
