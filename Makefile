@@ -42,5 +42,10 @@ format: $(VENV)/installed ## Format the code
 lab: $(VENV)/installed ## Open the notebooks in JupyterLab
 	$(BIN)/workbench lab
 
+screenshots: $(VENV)/installed ## Make the pictures of the README again
+	$(BIN)/python -m tests.browser.make_screenshots docs/images
+	$(BIN)/workbench reproduce --out $(REPORT)
+	$(BIN)/python -m tests.notebooks.screenshot_report $(REPORT) docs/images/report.png
+
 clean: ## Remove everything that was made
 	rm -rf $(VENV) $(REPORT) dist build

@@ -6,6 +6,9 @@ import os
 import sys
 from pathlib import Path
 
+# Before anything loads OpenMP: waiting threads that spin slow t-SNE down on a busy machine.
+os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+
 import numpy as np
 import pytest
 

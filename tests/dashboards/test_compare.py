@@ -217,6 +217,18 @@ def test_registered_data_are_found_by_name(iris: ProjectionComparison) -> None:
     assert "30 samples" in messages(iris)
 
 
+def test_registered_data_are_offered() -> None:
+    """A data set registered before the dashboard is made stands first in its list."""
+    rows = np.random.default_rng(3).normal(size=(30, 3))
+    register_dataset("mine/offered", lambda: rows)
+    comparison = compare_projections("mine/offered", ["pca", "mds"], ratio=0.1)
+    try:
+        assert "mine/offered" in [name for _, name in comparison.controls.data.options]
+        assert comparison.controls.data.value == "mine/offered"
+    finally:
+        comparison.close()
+
+
 def test_a_failing_loader_is_told_in_plain_words(iris: ProjectionComparison) -> None:
     """An error of the user's own loader loses nothing either."""
 

@@ -373,11 +373,12 @@ def _running_loop() -> asyncio.AbstractEventLoop | None:
 
 
 def _available() -> list[tuple[str, str]]:
-    """List the data sets that need no download, as (text, name)."""
-    from workbench.datasets import list_datasets
+    """List the user's own data sets and those that need no download, as (text, name)."""
+    from workbench.datasets import list_datasets, registered_datasets
 
-    return [
+    own = registered_datasets()
+    return [(name, name) for name in own] + [
         (f"{found.entry.name}: {found.entry.title}", found.entry.name)
         for found in list_datasets()
-        if found.state in ("available", "built in")
+        if found.state in ("available", "built in") and found.entry.name not in own
     ]

@@ -12,6 +12,7 @@ from workbench.datasets.loaders import (
     load,
     load_space,
     register_dataset,
+    registered_datasets,
 )
 from workbench.datasets.tables import Table
 
@@ -26,4 +27,5 @@ __all__ = [
     "load_space",
     "read_table",
     "register_dataset",
+    "registered_datasets",
 ]

@@ -70,6 +70,11 @@ def register_dataset(name: str, loader: Callable[[], Any]) -> None:
     _registered.register(name, loader)
 
 
+def registered_datasets() -> list[str]:
+    """List the names registered in this kernel, which take precedence over the catalogue."""
+    return _registered.names()
+
+
 def load(source: str | Path, *, label: str | None = None) -> Table | Motion:
     """Load a data set by name or a file by path.
 
