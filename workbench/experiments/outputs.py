@@ -117,7 +117,6 @@ class Outputs:
             "notebook": notebook,
             "n_runs": len(table),
             "n_failed": len(table) - len(done),
-            "seconds": float(done["seconds_total"].sum()) if len(done) else 0.0,
             "sizes": {
                 str(name): int(size)
                 for name, size in done.groupby("dataset", sort=False)["n_samples"].first().items()
