@@ -293,7 +293,8 @@ class ProjectionComparison:
         """Let the drop-down show what is wanted, without wanting it again."""
         self._choosing = True
         try:
-            self.controls.choose(None if self._wanted.token else self._wanted.name)
+            named = self._wanted.registered or not self._wanted.token
+            self.controls.choose(self._wanted.name if named else None)
         finally:
             self._choosing = False
 
@@ -336,10 +337,11 @@ def _source(data: str | Path | Space, label: str | None, standardize: bool) -> S
     """Say where samples come from, in words that the other process understands."""
     if isinstance(data, Space):
         return Source(data.name or "samples", space=data, token=next(_tokens))
+    from workbench.datasets import registered_datasets
     from workbench.datasets.catalogue import lookup
 
     name = str(data).strip()
-    if lookup(name) is not None:
+    if name not in registered_datasets() and lookup(name) is not None:
         return Source(name, label, standardize)
     path = Path(name).expanduser()
     try:
