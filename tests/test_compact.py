@@ -150,3 +150,40 @@ def test_expanding_something_else_is_one_line(run, tmp_path):
     assert "is damaged or no compact file" in err
     assert err.count("\n") == 1
     assert run("expand", other, "--out", tmp_path / "y.fbx")[0] == 2
+
+
+def test_expanding_something_else_gives_no_unsafe_advice(run, compacted, tmp_path):
+    """A table, or a compact file whose first byte is damaged, is named as what it is."""
+    other = tmp_path / "three.csv"
+    write_compact(compacted[1], other)
+    damaged = b"Q" + other.read_bytes()[1:]
+    for content in (b"a,b,c\n1,2,3\n", b"", damaged):
+        other.write_bytes(content)
+        status, out, err = run("expand", other, "--out", tmp_path / "x.bvh")
+        assert status == 2
+        assert out == ""
+        assert err.rstrip().endswith("three.csv: is damaged or no compact file (no ZIP archive)")
+
+
+def test_expanding_a_missing_file_or_a_folder_is_one_line(run, tmp_path):
+    """What is no file is said so."""
+    status, _, err = run("expand", tmp_path / "none.compact", "--out", tmp_path / "x.bvh")
+    assert (status, err.count("\n")) == (2, 1)
+    assert "there is no such file" in err
+    status, _, err = run("expand", tmp_path, "--out", tmp_path / "x.bvh")
+    assert (status, err.count("\n")) == (2, 1)
+    assert "is damaged or no compact file" in err
+
+
+def test_a_folder_as_output_is_refused_before_computing(run, tmp_path, monkeypatch):
+    """No scheme runs when its result could not be written under the given name."""
+
+    def compute(*_, **__):
+        pytest.fail("computed before the output was checked")
+
+    monkeypatch.setattr(TemporalScheme, "run", compute)
+    words = ["compact", "cmu/01_01-jump", "--interpolator", "slerp", "--out", tmp_path]
+    status, _, err = run(*words)
+    assert status == 2
+    assert f"--out: got the folder {str(tmp_path)!r}, want the name of a file" in err
+    assert err.count("\n") == 1

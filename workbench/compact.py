@@ -50,6 +50,7 @@ from workbench.validation import as_embedding, control_point_indices
 FORMAT = "workbench compact motion"
 VERSION = 1
 
+_ZIP_START = b"PK\x03\x04"
 # What NumPy and zipfile raise on damaged archives; a changed flag asks for a password
 # (RuntimeError) or for an unknown compression (NotImplementedError).
 _DAMAGE = (
@@ -239,6 +240,10 @@ def read_compact(path: str | Path) -> CompactMotion:
     """
     path = Path(path)
     try:
+        with path.open("rb") as file:
+            # NumPy takes what does not begin so for a pickle, and advises to load it unsafely.
+            if file.read(len(_ZIP_START)) != _ZIP_START:
+                raise DataError(f"{path}: is damaged or no compact file (no ZIP archive)")
         # Members carry a checksum, so damage does not go unseen.
         with np.load(path, allow_pickle=False) as archive:
             arrays = {name: archive[name] for name in archive.files}

@@ -189,8 +189,12 @@ def _table_writer(out: Path | None) -> Any:
 
 
 def _check_folder(out: Path | None) -> None:
-    """Refuse an output file whose folder is missing, before anything is computed."""
-    if out is not None and not out.resolve().parent.is_dir():
+    """Refuse an output file that has no place, before anything is computed."""
+    if out is None:
+        return
+    if out.is_dir():
+        raise WorkbenchError(f"--out: got the folder {str(out)!r}, want the name of a file")
+    if not out.resolve().parent.is_dir():
         raise WorkbenchError(f"--out: there is no folder {str(out.resolve().parent)!r}")
 
 
