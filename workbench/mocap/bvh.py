@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -32,6 +33,10 @@ def read_bvh(path: str | Path, *, positions: PositionRule = "replace") -> Motion
     name, also one used before. What a file may not do is named in the error instead of
     being repaired: wrong numbers of rows or values, and values that are no finite numbers.
     A T-pose in front stays; see :func:`workbench.mocap.drop_tpose`.
+
+    Joints other than the root may have position channels. Their OFFSET is often zero then, so
+    their offset in the skeleton, and with it the weight of D_q, comes from the motion: it is
+    their mean translation over all frames.
 
     Parameters
     ----------
@@ -72,10 +77,11 @@ def read_bvh(path: str | Path, *, positions: PositionRule = "replace") -> Motion
     )
     rows = read_number_rows(path, data, start, line, (int(n_frames), n_columns), "Frames:")
     translations, degrees = _split(skeleton, rows, positions)
+    root_translation = translations.pop(0, np.tile(skeleton.offsets[0], (len(rows), 1)))
     return Motion(
-        skeleton=skeleton,
+        skeleton=_resting_at_means(skeleton, translations),
         rotations=rotations_from_channels(skeleton, degrees),
-        root_translation=translations.pop(0, np.tile(skeleton.offsets[0], (len(rows), 1))),
+        root_translation=root_translation,
         frame_time=frame_time,
         joint_translations=translations,
         name=Path(path).stem,
@@ -107,6 +113,15 @@ def _header(
             raise MotionFormatError(path, line, quoted(text), expected)
         return value, line, end
     raise MotionFormatError(path, line, "the end of the file", expected)
+
+
+def _resting_at_means(skeleton: Skeleton, translations: dict[int, NDArray[np.float64]]) -> Skeleton:
+    """Give joints that the file moves their mean translation as offset, for a true bone length."""
+    offsets = skeleton.offsets.copy()
+    for joint, translation in translations.items():
+        # As a departure from OFFSET, so that a joint that stays there keeps it to the last digit.
+        offsets[joint] += (translation - offsets[joint]).mean(axis=0)
+    return replace(skeleton, offsets=offsets)
 
 
 def _split(

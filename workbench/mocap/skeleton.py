@@ -46,7 +46,8 @@ class Skeleton:
     parents : ndarray of shape (n_joints,)
         Index of each joint's parent, -1 for the root, which is joint 0.
     offsets : ndarray of shape (n_joints, 3)
-        Rest position of each joint relative to its parent, in file units.
+        Rest position of each joint relative to its parent, in file units; of a joint that a
+        file moves as well as turns, its mean position.
     end_sites : tuple of EndSite
         Ends of the outermost bones.
     channels : tuple of tuple of str

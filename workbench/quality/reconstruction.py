@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.mocap.kinematics import forward_kinematics
+from workbench.mocap.kinematics import forward_kinematics, root_relative_positions
 from workbench.mocap.motion import Motion
 
 
@@ -14,7 +14,8 @@ def position_error(motion: Motion, rotations: NDArray[np.float64]) -> float:
     """Measure how far the joints of a reconstruction are from where they were.
 
     Mean Euclidean distance of joint positions relative to the root's position, over all
-    frames and joints, the root included. The root's rotation counts.
+    frames and joints, the root included. The root's rotation counts; joints that the motion
+    moves as well as turns stay where it moves them.
 
     Parameters
     ----------
@@ -28,9 +29,10 @@ def position_error(motion: Motion, rotations: NDArray[np.float64]) -> float:
     float
         In file units; times ``skeleton.unit_cm`` where that is known.
     """
-    still = np.zeros((len(motion), 3))
-    original = forward_kinematics(motion.skeleton, motion.rotations, still)
-    rebuilt = forward_kinematics(motion.skeleton, rotations, still)
+    original = root_relative_positions(motion)
+    rebuilt = forward_kinematics(
+        motion.skeleton, rotations, joint_translations=motion.joint_translations
+    )
     return float(np.linalg.norm(original - rebuilt, axis=2).mean())
 
 
