@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -121,10 +122,9 @@ def test_bundled_clips_equal_the_shared_ones(trial: str, shared_data: Path) -> N
     ],
 )
 def test_reads_the_form_that_uci_serves(
-    name: str, rewrite: object, shared_data: Path, tmp_path: Path
+    name: str, rewrite: Callable[[str], str], shared_data: Path, tmp_path: Path
 ) -> None:
     """The original forms, differently delimited, have the same content."""
-    assert callable(rewrite)
     entry = table_entry(name)
     original = tmp_path / "original"
     original.write_text(rewrite((shared_data / entry.files[0]).read_text()))

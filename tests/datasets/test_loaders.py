@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -37,6 +38,30 @@ Frame Time: 0.1
 0 0 0 91 0 0
 0 0 0 92 0 0
 """
+
+ASF = """:version 1.10
+:units
+  length 0.45
+  angle deg
+:root
+  order TX TY TZ RX RY RZ
+  axis XYZ
+  position 0 0 0
+  orientation 0 0 0
+:bonedata
+  begin
+    id 1
+    name leg
+    direction 0 -1 0
+    length 3
+    axis 0 0 0 XYZ
+  end
+:hierarchy
+  begin
+    root leg
+  end
+"""
+AMC = ":DEGREES\n1\nroot 1 2 3 10 20 30\n2\nroot 1 2 4 11 21 31\n3\nroot 1 2 5 12 22 33\n"
 
 
 @pytest.fixture
@@ -116,6 +141,32 @@ class TestPaths:
         with pytest.raises(MotionFormatError, match="line 15"):
             load(path)
 
+    @pytest.mark.parametrize(
+        ("skeletons", "clip", "kind"),
+        [
+            pytest.param([], "13_29", Table, id="none"),
+            pytest.param(["05"], "13_29", Table, id="another subject's alone"),
+            pytest.param(["13"], "13_29", Motion, id="the subject's"),
+            pytest.param(["05", "13_29"], "13_29", Motion, id="the trial's among others"),
+            pytest.param(["05"], "walk", Motion, id="the only one of a clip that is no trial"),
+            pytest.param(["05", "13"], "walk", Table, id="two for a clip that is no trial"),
+        ],
+    )
+    def test_amc_with_a_fitting_skeleton_is_a_motion(
+        self, skeletons: list[str], clip: str, kind: type, tmp_path: Path
+    ) -> None:
+        """Beside the skeletons of other subjects an AMC is the table of its joint angles."""
+        for name in skeletons:
+            (tmp_path / f"{name}.asf").write_text(ASF)
+        (tmp_path / f"{clip}.amc").write_text(AMC)
+        data = load(tmp_path / f"{clip}.amc")
+        assert type(data) is kind
+        if isinstance(data, Table):
+            np.testing.assert_array_equal(data.values, [[10, 20, 30], [11, 21, 31], [12, 22, 33]])
+            assert "no skeleton" in data.notes[0]
+        else:
+            assert (data.name, len(data)) == (clip, 3)
+
     def test_amc_takes_the_skeleton_beside_it(self, shared_data: Path) -> None:
         """An AMC with its ASF beside it is a motion, one without a table of angles."""
         folder = shared_data / "mocap" / "asf_amc"
@@ -178,12 +229,21 @@ class TestNames:
         with pytest.raises(DataError, match="table of your own only"):
             load("uci/iris", label="class")
 
-    @pytest.mark.parametrize("action", [loaders.check, loaders.fetch])
-    def test_check_and_fetch_want_a_name_of_the_catalogue(self, action: object) -> None:
-        """An unknown name is refused there as well."""
-        assert callable(action)
+    @pytest.mark.usefixtures("_own_names")
+    @pytest.mark.parametrize("action", [loaders.check, loaders.fetch], ids=["check", "fetch"])
+    def test_check_and_fetch_want_a_name_of_the_catalogue(
+        self, action: Callable[[str], loaders.Status], tmp_path: Path
+    ) -> None:
+        """Only the catalogue knows what to check or where to fetch: a file or own name is none."""
+        assert action("uci/yeast").entry.name == "uci/yeast"
         with pytest.raises(DataError, match="did you mean uci/seeds"):
             action("uci/seed")
+        (tmp_path / "mine").write_text("a,b\n1,2\n3,4\n5,6\n")
+        register_dataset("mine/cube", lambda: np.eye(3))
+        for source in (str(tmp_path / "mine"), "mine/cube"):
+            assert len(load_space(source)) == 3
+            with pytest.raises(DataError, match="no data set or file is called"):
+                action(source)
 
 
 @pytest.mark.usefixtures("_own_names")

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 
 from workbench.datasets import read_table
 from workbench.datasets.delimited import detect_layout
-from workbench.datasets.treatment import table_from_frame
+from workbench.datasets.treatment import MISSING, table_from_frame
 from workbench.errors import DataError
 
 EXPECTED = [[1, 2.5], [3, 4], [5, 6.25]]
@@ -170,6 +170,15 @@ def test_treatments_are_stated(
     table = read_table(written(tmp_path, content))
     np.testing.assert_array_equal(table.values, values)
     assert pd.Series(table.notes).str.contains(note).any(), table.notes
+
+
+@pytest.mark.parametrize("text", sorted(MISSING), ids=repr)
+def test_a_missing_value_is_neither_a_name_nor_a_number(text: str, tmp_path: Path) -> None:
+    """However it is spelt, in the first line it begins no column names, and its row is dropped."""
+    table = read_table(written(tmp_path, f"7,{text.upper()}\n1,2\n3,4\n5,7\n"))
+    np.testing.assert_array_equal(table.values, [[1, 2], [3, 4], [5, 7]])
+    assert table.columns == ("column 1", "column 2")
+    assert "dropped 1 of 4 rows, which have missing values" in table.notes
 
 
 def test_a_clean_table_needs_no_notes(tmp_path: Path) -> None:

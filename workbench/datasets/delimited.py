@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 
 from workbench.datasets.formats import read_text
 from workbench.datasets.tables import counted
+from workbench.datasets.treatment import MISSING
 from workbench.errors import DataError
 
 if TYPE_CHECKING:
@@ -20,7 +21,6 @@ if TYPE_CHECKING:
 _BLANKS = r"\s+"
 _CANDIDATES = (",", ";", "\t", "|", _BLANKS)
 _NUMBER = re.compile(r"[+-]?(\d+([.,]\d*)?|[.,]\d+)([eE][+-]?\d+)?|[+-]?inf(inity)?", re.IGNORECASE)
-_MISSING = {"", "na", "n/a", "nan", "null", "none", "?", "-", "#n/a"}
 _SAMPLE_LINES = 200
 
 
@@ -175,7 +175,7 @@ def _score(rows: list[list[str]]) -> tuple[bool, float, bool]:
 def _has_header(rows: list[list[str]]) -> bool:
     """Tell names from data: a name stands above numbers, or the line holds names only."""
     first = rows[0]
-    names = [field.lower() not in _MISSING and not _NUMBER.fullmatch(field) for field in first]
+    names = [field.lower() not in MISSING and not _NUMBER.fullmatch(field) for field in first]
     if len(rows) > 1:
         width = max(len(row) for row in rows[1:])
         # A line of column names may leave out that of the row names.

@@ -261,18 +261,12 @@ def _load_file(path: Path, label: str | None) -> Table | Motion:
     ending = path.suffix.lower()
     if ending not in _MOTION_ENDINGS:
         return read_table(path, label)
-    from workbench.mocap.reading import read_motion
+    from workbench.mocap.reading import find_skeleton, read_motion
 
     _refuse_label(label, path)
-    if ending == ".amc" and path.is_file() and not _has_skeleton(path):
+    if ending == ".amc" and find_skeleton(path) is None:
         return read_joint_angles(path)
     return read_motion(path)
-
-
-def _has_skeleton(path: Path) -> bool:
-    """Tell whether an AMC file has a skeleton beside it, by the rule of ``read_motion``."""
-    stems = {file.stem for file in path.parent.iterdir() if file.suffix.lower() == ".asf"}
-    return len(stems) == 1 or not stems.isdisjoint({path.stem, path.stem.rpartition("_")[0]})
 
 
 def _as_data(name: str, data: Any, label: str | None) -> Table | Motion:

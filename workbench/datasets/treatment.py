@@ -20,7 +20,8 @@ from workbench.validation import MIN_SAMPLES
 if TYPE_CHECKING:
     import pandas as pd
 
-_MISSING_TEXT = frozenset(["", "na", "n/a", "nan", "null", "none", "?", "-", "#n/a", "nat", "<na>"])
+#: Texts, in lower case, that stand for a missing value in whatever file.
+MISSING = frozenset(["", "na", "n/a", "nan", "null", "none", "?", "-", "#n/a", "nat", "<na>"])
 _TRUTH = {"true": 1.0, "false": 0.0}
 _UNLABELLED = "(missing)"
 _MIN_COLUMNS = 2
@@ -139,7 +140,7 @@ def _labels(column: pd.Series, said: list[str]) -> NDArray[np.str_]:
             # A missing class makes pandas write 1 as 1.0.
             column = numbers.astype("Int64")
     text = column.astype("string").str.strip()
-    missing = text.isna() | text.str.lower().isin(_MISSING_TEXT)
+    missing = text.isna() | text.str.lower().isin(MISSING)
     if missing.any():
         said.append(f"{counted(int(missing.sum()), 'row')} without a label got {_UNLABELLED!r}")
     return np.asarray(text.mask(missing, _UNLABELLED).tolist(), dtype=np.str_)
@@ -183,7 +184,7 @@ def _as_numbers(column: pd.Series, said: list[str]) -> tuple[NDArray[np.float64]
 
 def _is_missing(item: object) -> bool:
     if isinstance(item, str):
-        return item.strip().lower() in _MISSING_TEXT
+        return item.strip().lower() in MISSING
     import pandas as pd
 
     return item is None or item is pd.NA or item is pd.NaT or _is_nan(item)

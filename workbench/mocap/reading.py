@@ -45,13 +45,41 @@ def read_motion(path: str | Path) -> Motion:
     if kind == ".bvh":
         return read_bvh(path)
     if kind == ".amc":
-        return read_asf_amc(_skeleton_beside(path), path)
+        skeleton = find_skeleton(path)
+        if skeleton is None:
+            subject = path.stem.rpartition("_")[0] or path.stem
+            raise DataError(
+                f"{path}: has no skeleton beside it, want {path.stem}.asf or {subject}.asf "
+                "in its folder"
+            )
+        return read_asf_amc(skeleton, path)
     if kind == ".asf":
         raise DataError(f"{path}: holds a skeleton without motion, want its .amc file")
     raise DataError(f"{path}: is of kind {kind or 'none'}, want a .bvh or an .amc file")
 
 
-def _skeleton_beside(path: Path) -> Path:
+def find_skeleton(path: str | Path) -> Path | None:
+    """Find the skeleton that lies beside an AMC file.
+
+    Whoever asks whether a motion can be read must ask by the rule of :func:`read_motion`.
+
+    Parameters
+    ----------
+    path : path-like
+        An ``.amc`` file.
+
+    Returns
+    -------
+    Path or None
+        The ASF file of the same name, else of the same subject, else the only one in the
+        folder if the clip's name tells no subject; None where there is no such file.
+
+    Raises
+    ------
+    DataError
+        If there is no AMC file.
+    """
+    path = Path(path)
     if not path.is_file():
         raise DataError(f"{path}: there is no such file")
     skeletons = {p.stem: p for p in path.parent.iterdir() if p.suffix.lower() == ".asf"}
@@ -60,7 +88,4 @@ def _skeleton_beside(path: Path) -> Path:
             return skeletons[stem]
     if len(skeletons) == 1 and not _TRIAL.fullmatch(path.stem):
         return next(iter(skeletons.values()))
-    prefix = path.stem.rpartition("_")[0] or path.stem
-    raise DataError(
-        f"{path}: has no skeleton beside it, want {path.stem}.asf or {prefix}.asf in its folder"
-    )
+    return None
