@@ -12,7 +12,7 @@ from workbench.validation import as_embedding, control_point_count, control_poin
 
 @pytest.mark.parametrize(
     ("n", "ratio", "expected"),
-    [(817, 0.03, 24), (150, 0.03, 4), (40, 0.03, 3), (10, 0.3, 3), (1000, 0.29, 290)],
+    [(817, 0.03, 24), (150, 0.03, 4), (40, 0.03, 3), (10, 0.3, 3), (1000, 0.29, 290), (3, 0.03, 2)],
 )
 def test_ratio_gives_its_floor_but_at_least_three(n, ratio, expected):
     """The number of control points is max(3, floor(ratio · n))."""
@@ -27,10 +27,13 @@ def test_ratio_gives_its_floor_but_at_least_three(n, ratio, expected):
         ({"ratio": 0.0}, "ratio: got 0.0"),
         ({"ratio": 1.0}, "ratio: got 1.0"),
         ({"ratio": float("nan")}, "ratio: got nan"),
+        ({"ratio": "3%"}, "ratio: got '3%'"),
         ({"count": 1}, "count: got 1"),
+        ({"count": 3.7}, "count: got 3.7"),
+        ({"count": True}, "count: got True"),
         ({"count": 100}, "want from 2 to 99"),
     ],
-    ids=["neither", "both", "zero", "one", "nan", "too few", "too many"],
+    ids=["neither", "both", "zero", "one", "nan", "text", "too few", "part", "flag", "too many"],
 )
 def test_unusable_counts_are_refused(wanted, message):
     """The message names the argument, its value and what is allowed."""

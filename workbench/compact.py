@@ -43,7 +43,7 @@ from workbench.interpolation import Interpolator, interpolators
 from workbench.mocap.motion import Motion
 from workbench.mocap.rotations import rotation_vectors, rotations_from_vectors
 from workbench.mocap.skeleton import EndSite, Skeleton
-from workbench.schemes import Result, SpatialResult
+from workbench.results import Result, SpatialResult
 from workbench.spaces import PoseSpace
 from workbench.validation import as_embedding, control_point_indices
 

@@ -7,6 +7,7 @@ method registered in a notebook cell is available everywhere in that kernel.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from copy import deepcopy
 from importlib import import_module
 from typing import Any
 
@@ -25,6 +26,8 @@ class Registry:
         What the registry holds, as used in messages ("projector").
     entries : dict of str to str
         Built-in methods as ``"package.module:Name"``.
+    needs : tuple of str
+        Methods that every object must have to be used.
 
     Examples
     --------
@@ -36,8 +39,9 @@ class Registry:
     ['third', 'half']
     """
 
-    def __init__(self, kind: str, entries: dict[str, str]) -> None:
+    def __init__(self, kind: str, entries: dict[str, str], needs: tuple[str, ...] = ()) -> None:
         self.kind = kind
+        self.needs = needs
         self._entries: dict[str, str | Callable[..., Any]] = dict(entries)
 
     def __contains__(self, name: object) -> bool:
@@ -96,3 +100,84 @@ class Registry:
     def create(self, name: str, *args: Any, **parameters: Any) -> Any:
         """Build the method of that name with the given parameters."""
         return self.factory(name)(*args, **parameters)
+
+    def build(self, method: Any, random_state: int | None = None) -> Any:
+        """Make a method ready for one use, from its name or from an object.
+
+        An object is copied, so that using it does not change it. Every ``random_state``
+        that is open (None), its own or that of an estimator inside, gets the seed: the same
+        seed gives the same result, whatever the method.
+
+        Parameters
+        ----------
+        method : str or object
+            A registered name, or an object with the methods in ``needs``.
+        random_state : int, optional
+            The seed.
+
+        Returns
+        -------
+        object
+
+        Raises
+        ------
+        WorkbenchError
+            If the name is unknown, a class is given instead of an object, or a method is
+            missing.
+
+        Examples
+        --------
+        >>> from workbench.projection import projectors
+        >>> projectors.build("tsne", random_state=7).random_state
+        7
+        """
+        if isinstance(method, type):
+            raise WorkbenchError(
+                f"{self.kind}: got the class {method.__name__}, "
+                f"want an object such as {method.__name__}()"
+            )
+        built = self.create(method) if isinstance(method, str) else fresh_copy(method)
+        missing = [name for name in self.needs if not callable(getattr(built, name, None))]
+        if missing:
+            raise WorkbenchError(
+                f"{self.kind}: got {method!r}, want one of {', '.join(self.names())} "
+                f"or an object with {' and '.join(self.needs)}"
+            )
+        _seed(built, random_state)
+        return built
+
+
+def fresh_copy(method: Any) -> Any:
+    """Copy a method without what it has learnt, where it can tell the two apart.
+
+    Parameters
+    ----------
+    method : object
+        A scikit-learn estimator, or any object.
+
+    Returns
+    -------
+    object
+    """
+    if hasattr(method, "get_params"):
+        from sklearn.base import clone
+
+        return clone(method)
+    return deepcopy(method)
+
+
+def _seed(method: Any, random_state: int | None) -> None:
+    """Give the seed to each ``random_state`` that is open, inner estimators included."""
+    if random_state is None:
+        return
+    if not 0 <= random_state < 2**32:
+        raise WorkbenchError(f"random_state: got {random_state}, want from 0 to {2**32 - 1}")
+    if hasattr(method, "get_params"):
+        is_open = {
+            name: random_state
+            for name, value in method.get_params().items()
+            if value is None and name.split("__")[-1] == "random_state"
+        }
+        method.set_params(**is_open)
+    elif getattr(method, "random_state", random_state) is None:
+        method.random_state = random_state

@@ -8,11 +8,7 @@ the dashboards run these two classes and nothing else.
 
 from __future__ import annotations
 
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, field
-from functools import cached_property
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -22,105 +18,12 @@ from workbench.backprojection import BackProjector, back_projector_for
 from workbench.errors import WorkbenchError
 from workbench.interpolation import Interpolator, interpolators
 from workbench.optimization import optimizers
-from workbench.optimization.objective import Callback, Objective, OptimizationResult
-from workbench.projection import project
-from workbench.quality.summary import EmbeddingQuality, embedding_quality
+from workbench.optimization.objective import Callback, Objective
+from workbench.projection import project, projectors
+from workbench.results import Result, SpatialResult, Timings
 from workbench.selection import Selector, selectors
-from workbench.spaces import PoseSpace, Space
+from workbench.spaces import PoseSpace, Space, check_space
 from workbench.validation import as_embedding, control_point_count, control_point_indices
-
-
-@dataclass
-class Timings:
-    """Seconds spent on each step, in the order of the steps."""
-
-    steps: dict[str, float] = field(default_factory=dict)
-
-    @contextmanager
-    def step(self, name: str) -> Iterator[None]:
-        """Add the time of a ``with`` block to a step."""
-        start = time.perf_counter()
-        try:
-            yield
-        finally:
-            self.steps[name] = self.steps.get(name, 0.0) + time.perf_counter() - start
-
-    @property
-    def total(self) -> float:
-        """Seconds spent on all steps."""
-        return sum(self.steps.values())
-
-
-@dataclass(frozen=True, eq=False)
-class Result:
-    """What a scheme made of a space.
-
-    Attributes
-    ----------
-    space : Space
-        The samples.
-    control_points : ndarray of shape (n_control_points,)
-        Indices of the samples that are kept as they are.
-    reconstruction : ndarray of shape (n_samples, ...)
-        All samples rebuilt, the control points exactly.
-    timings : Timings
-        Seconds of each step.
-    """
-
-    space: Space
-    control_points: NDArray[np.intp]
-    reconstruction: NDArray[np.float64]
-    timings: Timings
-
-    @cached_property
-    def errors(self) -> NDArray[np.float64]:
-        """Error of each sample, 0 for control points: (n_samples,)."""
-        return self.space.errors(np.arange(len(self.space)), self.reconstruction)
-
-    @property
-    def error(self) -> float:
-        """Mean error over all samples; for poses, the error per frame per joint."""
-        return float(self.errors.mean())
-
-    @property
-    def relative_error(self) -> float:
-        """Mean error relative to rebuilding every sample by the mean."""
-        return self.error / self.space.mean_prediction_error()
-
-
-@dataclass(frozen=True, eq=False)
-class SpatialResult(Result):
-    """What a spatial scheme made of a space.
-
-    Attributes
-    ----------
-    projected : ndarray of shape (n_samples, n_dimensions)
-        The embedding as projected, scaled to the unit square.
-    embedding : ndarray of shape (n_samples, n_dimensions)
-        The embedding used for the reconstruction: optimized, if there is an optimizer.
-    back_projector : back-projector
-        Fitted on the control points.
-    optimization : OptimizationResult or None
-        How the optimizer got there.
-    evaluations : int
-        Points back-projected, by the optimizer and for the reconstruction.
-    """
-
-    projected: NDArray[np.float64]
-    embedding: NDArray[np.float64]
-    back_projector: BackProjector
-    optimization: OptimizationResult | None
-    evaluations: int
-
-    @cached_property
-    def quality(self) -> EmbeddingQuality:
-        """Quality of the embedding."""
-        return embedding_quality(self.space.distances, self.embedding)
-
-    @cached_property
-    def projected_quality(self) -> EmbeddingQuality:
-        """Quality of the embedding before it was optimized."""
-        return embedding_quality(self.space.distances, self.projected)
 
 
 def choose_control_points(
@@ -154,13 +57,13 @@ def choose_control_points(
     WorkbenchError
         If the name, the count or the ratio is not valid.
     """
+    check_space(space)
     wanted = control_point_count(len(space), count=count, ratio=ratio)
-    chosen: Selector = (
-        _create_seeded(selectors.factory(selector), random_state)
-        if isinstance(selector, str)
-        else selector
-    )
-    return control_point_indices(chosen.select(space, wanted), len(space))
+    chosen = selectors.build(selector, random_state).select(space, wanted)
+    indices = control_point_indices(chosen, len(space))
+    if len(indices) != wanted:
+        raise WorkbenchError(f"selector {selector!r}: gave {len(indices)} samples, want {wanted}")
+    return indices
 
 
 @dataclass(frozen=True)
@@ -216,9 +119,7 @@ class TemporalScheme:
             keys = choose_control_points(
                 space, self.selector, count=count, ratio=ratio, random_state=random_state
             )
-        interpolator = self.interpolator
-        if isinstance(interpolator, str):
-            interpolator = interpolators.create(interpolator)
+        interpolator = interpolators.build(self.interpolator, random_state)
         with timings.step("interpolate"):
             rebuilt = np.array(interpolator.interpolate(space.motion, keys))
         rebuilt[keys] = space.samples[keys]
@@ -283,41 +184,41 @@ class SpatialScheme:
         WorkbenchError
             If a name or an argument is not valid.
         """
-        timings = Timings()
+        check_space(space)
         selector = self.selector
         if selector is None:
             selector = "uniform" if isinstance(space, PoseSpace) else "random"
+        # Methods are made before the clock starts: the first of a kind imports its package.
+        projector = projectors.build(self.projector, random_state)
+        back_projector = back_projector_for(space, self.back_projector, random_state=random_state)
+        optimizer = None
+        if self.optimizer is not None:
+            optimizer = optimizers.build(self.optimizer, random_state)
+
+        timings = Timings()
         with timings.step("select"):
             control = choose_control_points(
                 space, selector, count=count, ratio=ratio, random_state=random_state
             )
         if projected is None:
             with timings.step("project"):
-                projected = project(space, self.projector, random_state=random_state)
+                projected = project(space, projector)
         else:
             projected = as_embedding(projected, "projected", len(space))
-
         free = np.setdiff1d(np.arange(len(space)), control)
-        back_projector = back_projector_for(space, self.back_projector)
-        optimization, embedding = None, projected
         with timings.step("fit"):
             back_projector.fit(projected[control], space.samples[control])
-        if self.optimizer is not None:
-            optimizer = self.optimizer
-            if isinstance(optimizer, str):
-                optimizer = _create_seeded(optimizers.factory(optimizer), random_state)
+        optimization, embedding = None, projected
+        if optimizer is not None:
+            objective = Objective(back_projector, space.errors)
             with timings.step("optimize"):
                 optimization = optimizer.optimize(
-                    Objective(back_projector, space.errors),
-                    projected,
-                    free,
-                    space.neighbors,
-                    callback=callback,
+                    objective, projected, free, space.neighbors, callback=callback
                 )
             embedding = optimization.embedding
         with timings.step("back-project"):
             rebuilt = space.samples.copy()
-            rebuilt[free] = back_projector.predict(embedding[free])
+            _, rebuilt[free] = space.matched(free, back_projector.predict(embedding[free]))
         return SpatialResult(
             space=space,
             control_points=control,
@@ -329,12 +230,3 @@ class SpatialScheme:
             optimization=optimization,
             evaluations=len(free) + (optimization.evaluations if optimization else 0),
         )
-
-
-def _create_seeded(factory: Any, random_state: int | None) -> Any:
-    """Build a method, passing the seed on if it takes one."""
-    from inspect import signature
-
-    if "random_state" in signature(factory).parameters:
-        return factory(random_state=random_state)
-    return factory()

@@ -8,6 +8,7 @@ else, so all other steps serve both.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Iterable
 from functools import cached_property
 from typing import Any
 
@@ -16,7 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.mocap.motion import Motion
-from workbench.validation import MIN_SAMPLES, finite
+from workbench.validation import MIN_SAMPLES, finite, require_memory
 
 
 class Space(ABC):
@@ -91,6 +92,43 @@ class Space(ABC):
     def mean_prediction_error(self) -> float:
         """Mean error of the poorest sensible reconstruction: every sample by the mean."""
 
+    def matched(
+        self, indices: ArrayLike, reconstructions: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Pair samples with their reconstructions, whoever made these.
+
+        Parameters
+        ----------
+        indices : array-like of shape (n_points,)
+            The sample that each reconstruction stands for.
+        reconstructions : array-like of shape (n_points, ...)
+            Reconstructed samples.
+
+        Returns
+        -------
+        samples, reconstructions : ndarray of shape (n_points, ...)
+
+        Raises
+        ------
+        WorkbenchError
+            If they are not as many, or of another shape.
+        """
+        originals = self.samples[_index(indices)]
+        rebuilt = np.asarray(reconstructions, dtype=np.float64)
+        if rebuilt.shape != originals.shape:
+            raise WorkbenchError(
+                f"reconstructions: got shape {rebuilt.shape}, want {originals.shape}"
+            )
+        return originals, rebuilt
+
+    def _require_memory_for_distances(self) -> None:
+        # Twice the matrix: methods that work on it need a copy.
+        require_memory(
+            16.0 * len(self) ** 2,
+            f"{self.name or 'data'}: the distances between {len(self)} samples",
+            "take a sample of them, or a shorter or thinner clip",
+        )
+
 
 class VectorSpace(Space):
     """Rows of a table under the Euclidean distance.
@@ -99,7 +137,7 @@ class VectorSpace(Space):
     ----------
     values : array-like of shape (n_samples, n_features)
         The table's numbers.
-    columns : sequence of str, optional
+    columns : iterable of str, optional
         Names of the features.
     labels : array-like of shape (n_samples,), optional
         A class for each row; never used by a projection, only to colour it.
@@ -127,13 +165,19 @@ class VectorSpace(Space):
         self,
         values: ArrayLike,
         *,
-        columns: list[str] | tuple[str, ...] | None = None,
+        columns: Iterable[str] | None = None,
         labels: ArrayLike | None = None,
         name: str = "",
         standardize: bool = False,
         notes: tuple[str, ...] = (),
     ) -> None:
-        array = np.array(values, dtype=np.float64)
+        try:
+            array = np.array(values, dtype=np.float64)
+        except (TypeError, ValueError):
+            raise WorkbenchError(
+                "values: got entries that are no numbers, or rows of different lengths, "
+                "want a table of numbers (workbench.load_space reads files with text columns)"
+            ) from None
         if array.ndim != 2 or len(array) < MIN_SAMPLES or array.shape[1] < 1:
             raise WorkbenchError(
                 f"values: got shape {array.shape}, want at least {MIN_SAMPLES} rows "
@@ -141,12 +185,16 @@ class VectorSpace(Space):
             )
         finite(array, "values")
         if standardize:
-            spread = array.std(axis=0)
-            array = (array - array.mean(axis=0)) / np.where(spread > 0, spread, 1.0)
+            # By the range: the mean of equal numbers may differ from them by rounding.
+            varies = np.ptp(array, axis=0) > 0
+            spread = np.where(varies, array.std(axis=0), 1.0)
+            array = np.where(varies, (array - array.mean(axis=0)) / spread, 0.0)
         self.samples = array
         self.name = name
         self.standardized = standardize
-        self.columns = tuple(columns) if columns else tuple(f"x{i}" for i in range(array.shape[1]))
+        if columns is None:
+            columns = [f"x{i}" for i in range(array.shape[1])]
+        self.columns = tuple(columns)
         self.labels = None if labels is None else np.asarray(labels)
         self.notes = tuple(notes)
         if len(self.columns) != array.shape[1]:
@@ -164,6 +212,7 @@ class VectorSpace(Space):
         """Euclidean distances between all rows: (n_samples, n_samples)."""
         from scipy.spatial.distance import pdist, squareform
 
+        self._require_memory_for_distances()
         return squareform(pdist(self.samples))
 
     def pair_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
@@ -172,7 +221,8 @@ class VectorSpace(Space):
 
     def errors(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
         """Measure the Euclidean distances between rows and their reconstructions."""
-        return np.linalg.norm(self.samples[_index(indices)] - np.asarray(reconstructions), axis=1)
+        originals, rebuilt = self.matched(indices, reconstructions)
+        return finite(np.linalg.norm(originals - rebuilt, axis=1), "errors of reconstructions")
 
     @cached_property
     def neighbors(self) -> NDArray[np.intp]:
@@ -205,10 +255,14 @@ class PoseSpace(Space):
     Raises
     ------
     WorkbenchError
-        If it is shorter, or its matrices are not rotations.
+        If it is shorter, its matrices are not rotations, or no bone has a length.
     """
 
     def __init__(self, motion: Motion) -> None:
+        if not isinstance(motion, Motion):
+            raise WorkbenchError(
+                f"motion: got {type(motion).__name__}, want a Motion as read_bvh gives it"
+            )
         rotations = finite(np.ascontiguousarray(motion.rotations, dtype=np.float64), "rotations")
         if len(rotations) < MIN_SAMPLES:
             raise WorkbenchError(
@@ -219,6 +273,11 @@ class PoseSpace(Space):
             raise WorkbenchError(
                 f"rotations of {motion.name!r}: got matrices that are {skew:.2g} from orthogonal "
                 "or mirrored, want rotations (see nearest_rotations)"
+            )
+        if not motion.skeleton.path_weights.any():
+            raise WorkbenchError(
+                f"motion {motion.name!r}: no bone of its skeleton has a length, "
+                "so no rotation has a weight; want offsets or end sites"
             )
         self.motion = motion
         self.samples = rotations
@@ -239,6 +298,7 @@ class PoseSpace(Space):
         """D_q between all frames: (n_frames, n_frames)."""
         from workbench.mocap.distances import rotation_distance_matrix
 
+        self._require_memory_for_distances()
         return rotation_distance_matrix(self.samples, self.weights)
 
     def pair_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
@@ -253,10 +313,9 @@ class PoseSpace(Space):
         """Measure D_q per joint between frames and their reconstructions."""
         from workbench.mocap.distances import rotation_distance_pairs
 
-        poses = np.asarray(reconstructions, dtype=np.float64)
-        return rotation_distance_pairs(self.samples[_index(indices)], poses, self.weights) / len(
-            self.weights
-        )
+        originals, rebuilt = self.matched(indices, reconstructions)
+        distances = rotation_distance_pairs(originals, rebuilt, self.weights)
+        return finite(distances / len(self.weights), "errors of reconstructions")
 
     @cached_property
     def positions(self) -> NDArray[np.float64]:
@@ -297,6 +356,21 @@ class PoseSpace(Space):
         mean = nearest_rotations(self.samples.mean(axis=0))
         every = np.broadcast_to(mean, self.samples.shape)
         return float(self.errors(np.arange(len(self)), every).mean())
+
+
+def check_space(space: Any) -> None:
+    """Refuse what is no space of samples.
+
+    Raises
+    ------
+    WorkbenchError
+        If it is not; the message says how to make one.
+    """
+    if not isinstance(space, Space):
+        raise WorkbenchError(
+            f"space: got {type(space).__name__}, want a VectorSpace or a PoseSpace, "
+            "as workbench.load_space gives them"
+        )
 
 
 def _index(indices: ArrayLike) -> NDArray[np.intp]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+import os
+from numbers import Integral, Real
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from workbench.errors import WorkbenchError
+from workbench.errors import DataError, WorkbenchError
 
 MIN_SAMPLES = 3
 
@@ -60,10 +62,74 @@ def finite(array: NDArray[np.float64], name: str) -> NDArray[np.float64]:
     return array
 
 
+def as_distances(distances: ArrayLike, n: int | None = None) -> NDArray[np.float64]:
+    """Check a matrix of distances.
+
+    Parameters
+    ----------
+    distances : array-like of shape (n_samples, n_samples)
+        Distances between all pairs.
+    n : int, optional
+        The number of samples that is wanted.
+
+    Returns
+    -------
+    ndarray of shape (n_samples, n_samples)
+
+    Raises
+    ------
+    WorkbenchError
+        If it is not square, finite, symmetric and at least 0.
+    """
+    array = np.asarray(distances, dtype=np.float64)
+    wanted = array.shape[0] if array.ndim and n is None else n
+    if array.shape != (wanted, wanted):
+        size = "a square matrix" if n is None else f"({n}, {n})"
+        raise WorkbenchError(f"distances: got shape {array.shape}, want {size}")
+    finite(array, "distances")
+    if array.size and array.min() < 0:
+        raise WorkbenchError(f"distances: got {array.min()}, want none below 0")
+    if not np.allclose(array, array.T):
+        raise WorkbenchError("distances: got a matrix that is not symmetric")
+    return array
+
+
+def require_memory(n_bytes: float, what: str, instead: str) -> None:
+    """Refuse a computation that the machine's free memory will not hold.
+
+    Parameters
+    ----------
+    n_bytes : float
+        Memory that is needed.
+    what : str
+        What needs it, for the message.
+    instead : str
+        What to do instead.
+
+    Raises
+    ------
+    DataError
+        If there is less than that.
+    """
+    try:
+        free = os.sysconf("SC_AVPHYS_PAGES") * os.sysconf("SC_PAGE_SIZE")
+        with open("/proc/meminfo", encoding="ascii") as lines:
+            # Memory that caches hold can be had too.
+            found = [line.split()[1] for line in lines if line.startswith("MemAvailable:")]
+        free = int(found[0]) * 1024 if found else free
+    except (OSError, ValueError, AttributeError):
+        return  # a system that does not tell
+    if n_bytes > free:
+        raise DataError(
+            f"{what} needs {n_bytes / 1e9:.1f} GB of memory, "
+            f"{free / 1e9:.1f} GB are free; {instead}"
+        )
+
+
 def control_point_indices(
-    indices: ArrayLike, n_samples: int, *, at_least: int = 1
+    indices: ArrayLike, n_samples: int, *, at_least: int = 1, name: str = "control points"
 ) -> NDArray[np.intp]:
-    """Check the indices of control points or keyframes.
+    """Check the indices of control points, keyframes or other samples.
 
     Parameters
     ----------
@@ -73,6 +139,8 @@ def control_point_indices(
         Number of samples that they index.
     at_least : int
         How many are needed.
+    name : str
+        The argument's name, for the message.
 
     Returns
     -------
@@ -86,16 +154,15 @@ def control_point_indices(
     array = np.asarray(indices)
     if array.ndim != 1 or not np.issubdtype(array.dtype, np.integer) or len(array) < at_least:
         raise WorkbenchError(
-            f"control points: got {array.dtype} of shape {array.shape}, "
+            f"{name}: got {array.dtype} of shape {array.shape}, "
             f"want a list of at least {at_least} sample indices"
         )
     if array.min() < 0 or array.max() >= n_samples:
         raise WorkbenchError(
-            f"control points: got {array.min()}…{array.max()}, "
-            f"want indices from 0 to {n_samples - 1}"
+            f"{name}: got {array.min()}…{array.max()}, want indices from 0 to {n_samples - 1}"
         )
     if np.any(np.diff(array) <= 0):
-        raise WorkbenchError("control points: got unsorted or repeated indices, want each once")
+        raise WorkbenchError(f"{name}: got unsorted or repeated indices, want each once")
     return array.astype(np.intp)
 
 
@@ -111,7 +178,8 @@ def control_point_count(
     count : int, optional
         The number itself.
     ratio : float, optional
-        Share of the samples, between 0 and 1: max(3, floor(ratio · n_samples)).
+        Share of the samples, between 0 and 1: max(3, floor(ratio · n_samples)), which 3
+        samples cannot give and get 2.
 
     Returns
     -------
@@ -130,14 +198,13 @@ def control_point_count(
     if (count is None) == (ratio is None):
         raise WorkbenchError("count and ratio: want exactly one of them")
     if ratio is not None:
-        if not 0.0 < ratio < 1.0:
-            raise WorkbenchError(f"ratio: got {ratio}, want a number between 0 and 1")
+        if not isinstance(ratio, Real) or not 0.0 < ratio < 1.0:
+            raise WorkbenchError(f"ratio: got {ratio!r}, want a number between 0 and 1")
         # A share such as 0.3 of 10 is 2.9999… in binary; it means 3.
-        count = max(MIN_SAMPLES, math.floor(ratio * n_samples + 1e-9))
-    assert count is not None
-    if not 2 <= count < n_samples:
+        count = min(max(3, math.floor(ratio * n_samples + 1e-9)), n_samples - 1)
+    if not isinstance(count, Integral) or isinstance(count, bool) or not 2 <= count < n_samples:
         raise WorkbenchError(
-            f"count: got {count} control points for {n_samples} samples, "
+            f"count: got {count!r} control points for {n_samples} samples, "
             f"want from 2 to {n_samples - 1}"
         )
     return int(count)

@@ -6,7 +6,7 @@ import warnings
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.interpolate import RBFInterpolator
@@ -62,8 +62,7 @@ def test_rbf_agrees_with_scipy(dimensions):
 def test_rbf_passes_through_its_control_points(points, size):
     """Samples at control points come back, wherever these lie and whatever their scale."""
     points = np.round(points, 1) * size
-    if len(np.unique(points, axis=0)) < len(points):
-        return
+    assume(len(np.unique(points, axis=0)) == len(points))
     found = RBF().fit(points, VALUES[:12]).predict(points)
     assert np.abs(found - VALUES[:12]).max() < 1e-9
 
@@ -139,6 +138,20 @@ def test_all_control_points_in_one_place_give_the_mean():
     assert np.allclose(model.predict(POINTS), VALUES[:5].mean(axis=0))
 
 
+def test_equal_samples_stay_equal_everywhere():
+    """Control points that differ by rounding noise do not blow it up."""
+    model = RBF().fit([[0, 0], [0, 1e-13], [1e-17, 0]], [[3.0, 4.0]] * 3)
+    assert np.array_equal(model.predict([[1.0, 1.0], [-50.0, 7.0]]), [[3.0, 4.0]] * 2)
+
+
+def test_nearly_coinciding_control_points_are_rebuilt():
+    """Two control points 1e-9 apart with different samples come back to 1e-5."""
+    points = POINTS.copy()
+    points[7] = points[3] + 1e-9
+    model = RBF().fit(points, VALUES)
+    assert np.abs(model.predict(points) - VALUES).max() < 1e-5
+
+
 def test_single_output_regressors_are_fitted_for_each_feature():
     """Gradient boosting, which predicts one number, rebuilds vectors of six."""
     model = RegressorBackProjector(GradientBoostingRegressor(random_state=0))
@@ -156,12 +169,14 @@ def test_any_regressor_rebuilds_poses(waving):
 
 
 def test_usual_back_projectors(waving):
-    """Poses get spatial keyframes, vectors RBF, and regressors are adapted to both."""
+    """Poses get spatial keyframes, vectors RBF; regressors are adapted where they need it."""
     table = VectorSpace(VALUES)
     assert isinstance(back_projector_for(PoseSpace(waving), None), SpatialKeyframes)
     assert isinstance(back_projector_for(PoseSpace(waving), "rbf"), PoseBackProjector)
     assert isinstance(back_projector_for(table, None), RBF)
-    assert isinstance(back_projector_for(table, LinearRegression()), RegressorBackProjector)
+    assert isinstance(back_projector_for(table, LinearRegression()), LinearRegression)
+    single = back_projector_for(table, GradientBoostingRegressor())
+    assert isinstance(single, RegressorBackProjector)
 
 
 def test_pose_methods_are_refused_for_tables():

@@ -159,6 +159,7 @@ def test_the_main_result_of_the_thesis(run):
         (["project", "uci/iris", "--count", "150"], "want from 2 to 149"),
         (["project", "uci/iris", "--count", "5", "--ratio", "0.1"], "got both"),
         (["project", "uci/iris", "--seed", "x"], "--seed"),
+        (["project", "uci/iris", "--seed", "-1"], "--seed"),
         (["project", "uci/iris", "--out", "plane.txt"], ".csv or .parquet"),
         (["project", "uci/iris", "--out", "/no/such/folder/plane.csv"], "there is no folder"),
         (["compact", "uci/iris", "--projector", "pca"], "got a table, want a motion"),
@@ -242,7 +243,10 @@ def test_compiling_is_said_once_and_only_when_it_happens(tmp_path):
 
 def test_unread_output_ends_quietly():
     """Piping into a reader that stops early gives no traceback."""
-    words = f"{sys.executable} -m workbench datasets list | head -1"
-    done = subprocess.run(words, shell=True, capture_output=True, text=True, check=True)
-    assert done.stdout.startswith("uci/iris")
+    reading, writing = os.pipe()
+    os.close(reading)
+    words = [sys.executable, "-m", "workbench", "datasets", "list"]
+    done = subprocess.run(words, stdout=writing, stderr=subprocess.PIPE, text=True)
+    os.close(writing)
+    assert done.returncode == 1
     assert done.stderr == ""

@@ -131,8 +131,76 @@ def test_three_dimensions(problem):
     assert result.evaluations == len(free) * (1 + 7 * result.iterations)
 
 
-@pytest.mark.parametrize("parameter", ["step", "probe", "max_sweeps"])
+def test_the_search_ends_when_nothing_changes(problem):
+    """Once the relative change of the total is below tol, the next sweep is the last."""
+    space, start, free, objective = problem
+    result = GradientDescent(tol=1e-2).optimize(objective(), start, free, space.neighbors)
+    changes = np.abs(np.diff(result.history)) / result.history[:-1]
+    assert result.reason == "the total error stopped changing"
+    assert changes[-1] <= 1e-2
+    assert np.all(changes[:-1] > 1e-2)
+
+
+def test_the_search_ends_without_a_new_minimum(problem):
+    """A search that cycles ends after ``patience`` sweeps without a new minimum."""
+    space, start, free, objective = problem
+    search = GradientDescent(step=1.5, tol=0, patience=4)
+    result = search.optimize(objective(), start, free, space.neighbors)
+    assert result.reason == "no new minimum for 4 sweeps"
+    assert result.history.argmin() == result.iterations - 4
+    assert result.errors.mean() == result.history.min()
+
+
+def test_the_search_ends_after_the_last_sweep(problem):
+    """The limit of sweeps holds, and is the reason given."""
+    space, start, free, objective = problem
+    search = GradientDescent(max_sweeps=3, tol=0)
+    result = search.optimize(objective(), start, free, space.neighbors)
+    assert (result.iterations, result.reason) == (3, "reached 3 sweeps")
+
+
+def test_points_without_a_radius_take_the_median_one(problem):
+    """Coinciding with both neighbours, a point is probed at the others' median distance."""
+    space, start, free, objective = problem
+    first, second = space.neighbors[free[0]]
+    start[[first, second]] = start[free[0]]
+    pairs = space.neighbors[free]
+    radii = np.linalg.norm(start[pairs] - start[free, None], axis=2).mean(axis=1)
+    expected = np.median(radii[radii > 0])
+    result = GradientDescent(max_sweeps=1, step=1.0).optimize(
+        objective(), start, free, space.neighbors
+    )
+    moved = np.linalg.norm(result.embedding[free[0]] - start[free[0]])
+    assert moved in (pytest.approx(expected), 0.0)
+    assert moved > 0
+
+
+def test_the_readings_are_the_defaults():
+    """α = δ = 0.5, 200 sweeps, 1e-6 and 20 sweeps without a new minimum."""
+    search = GradientDescent()
+    assert (search.step, search.probe, search.max_sweeps) == (0.5, 0.5, 200)
+    assert (search.tol, search.patience) == (1e-6, 20)
+
+
+@pytest.mark.parametrize("parameter", ["step", "probe", "max_sweeps", "patience"])
 def test_useless_parameters_are_refused(parameter):
-    """Steps, probes and sweeps are positive."""
+    """Steps, probes, sweeps and patience are positive."""
     with pytest.raises(WorkbenchError, match=f"{parameter}: got 0"):
         GradientDescent(**{parameter: 0})
+
+
+@pytest.mark.parametrize(
+    ("free", "rows", "message"),
+    [
+        ([], 60, "free: got"),
+        ([True] * 60, 60, "free: got bool"),
+        ([5, 99], 60, "want indices from 0 to 59"),
+        ([5, 6], 59, r"neighbors: got shape \(59, 2\)"),
+    ],
+    ids=["none", "mask", "outside", "neighbours"],
+)
+def test_arrays_that_do_not_fit_are_refused(problem, free, rows, message):
+    """The message names the argument."""
+    space, start, _, objective = problem
+    with pytest.raises(WorkbenchError, match=message):
+        GradientDescent().optimize(objective(), start, free, space.neighbors[:rows])

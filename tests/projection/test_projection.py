@@ -105,6 +105,22 @@ def test_parameters_too_large_for_the_data_are_lowered_and_said(name, parameter)
     assert np.isfinite(embedding).all()
 
 
+@pytest.mark.parametrize(
+    ("name", "parameter", "value"),
+    [("isomap", "n_neighbors", 14), ("lle", "n_neighbors", 15), ("tsne", "perplexity", 50)],
+)
+def test_defaults_are_those_of_the_thesis(name, parameter, value):
+    """Costa 2018, chapter 5: 14 neighbours for Isomap, 15 for LLE, perplexity 50."""
+    assert projectors.create(name).get_params()[parameter] == value
+
+
+@pytest.mark.parametrize("name", BUILT_IN)
+def test_constant_data_are_refused_alike(name):
+    """Data without any difference cannot be projected, whatever the method."""
+    with pytest.raises(WorkbenchError, match="flat: all samples are equal"):
+        project(VectorSpace(np.full((20, 3), 0.1), name="flat"), name)
+
+
 def test_a_graph_in_parts_is_said():
     """Isomap of two far clusters works and tells that it joined them."""
     samples, _ = make_blobs([25, 25], centers=[[0, 0], [99, 99]], random_state=0)
@@ -163,3 +179,14 @@ def test_a_projector_with_a_wrong_result_is_named(iris):
 
     with pytest.raises(WorkbenchError, match=r"embedding by 'Wrong'.*\(150, 4\)"):
         project(iris, Wrong())
+
+
+def test_fit_transform_is_all_that_a_projector_needs(iris):
+    """A plain class with that one method projects."""
+
+    class FirstTwo:
+        def fit_transform(self, X):
+            return X[:, :2]
+
+    expected = scale_to_unit_square(iris.samples[:, :2])
+    assert np.array_equal(project(iris, FirstTwo()), expected)

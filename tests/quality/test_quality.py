@@ -127,6 +127,41 @@ def test_perfect_embeddings_have_quality_one():
         assert np.array_equal(values, np.ones(19))
 
 
+def test_equal_distances_are_ties_in_both():
+    """Rows that repeat keep quality 1, although rounding ranks their copies differently."""
+    places = np.repeat(np.random.default_rng(0).random((10, 2)), 4, axis=0)
+    turn = np.array([[0.6, -0.8], [0.8, 0.6]])
+    found = neighborhood_quality(cdist(places, places), places @ turn * 7 + 3, [1, 5, 12])
+    for values in (found.trustworthiness, found.continuity, found.preservation):
+        assert np.array_equal(values, np.ones(3))
+
+
+@pytest.mark.parametrize("k", [2.5, [], "many", [[1]]], ids=str)
+def test_neighborhood_sizes_are_whole_numbers(k):
+    """Fractions, nothing and words are refused by the argument's name."""
+    plane = np.random.default_rng(0).random((40, 2))
+    with pytest.raises(WorkbenchError, match="k: got"):
+        neighborhood_quality(cdist(plane, plane), plane, k)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda d: d * np.nan, "distances: got nan"),
+        (lambda d: -d, "want none below 0"),
+        (lambda d: d + np.arange(5), "not symmetric"),
+        (lambda d: d[:4], r"distances: got shape \(4, 5\), want \(5, 5\)"),
+    ],
+    ids=["nan", "negative", "asymmetric", "shape"],
+)
+@pytest.mark.parametrize("measure", [stress, embedding_quality, scale_normalized_stress])
+def test_what_are_no_distances_is_refused(measure, change, message):
+    """The message says what is wrong with them."""
+    plane = np.random.default_rng(0).random((5, 2))
+    with pytest.raises(WorkbenchError, match=message):
+        measure(change(cdist(plane, plane)), plane)
+
+
 @pytest.mark.parametrize("k", [0, 20, 99])
 def test_neighborhood_sizes_out_of_range_are_refused(k):
     """Sizes go from 1 to below half the samples."""
@@ -152,8 +187,8 @@ def test_unfit_input_is_refused():
     """Embeddings in one place and matrices of another size have no stress."""
     with pytest.raises(WorkbenchError, match="one place"):
         stress(np.ones((3, 3)) - np.eye(3), np.zeros((3, 2)))
-    with pytest.raises(WorkbenchError, match="square"):
-        stress(np.ones((3, 4)), np.random.default_rng(0).random((3, 2)))
+    with pytest.raises(WorkbenchError, match="distances: got only zeros"):
+        scale_normalized_stress(np.zeros((3, 3)), np.random.default_rng(0).random((3, 2)))
 
 
 def test_compression_limits_of_the_thesis():

@@ -33,11 +33,14 @@ back_projectors = Registry(
         "rbf": "workbench.backprojection.rbf:RBF",
         "spatial-keyframes": "workbench.backprojection.poses:SpatialKeyframes",
     },
+    needs=("fit", "predict"),
 )
 register_back_projector = back_projectors.register
 
 
-def back_projector_for(space: Space, back_projector: str | BackProjector | None) -> BackProjector:
+def back_projector_for(
+    space: Space, back_projector: str | BackProjector | None, *, random_state: int | None = None
+) -> BackProjector:
     """Build a back-projector that fits a space's samples.
 
     Parameters
@@ -45,39 +48,36 @@ def back_projector_for(space: Space, back_projector: str | BackProjector | None)
     space : Space
         The samples to rebuild.
     back_projector : str, back-projector or None
-        A registered name, an estimator, or None for the space's usual one: spatial
-        keyframes for poses, RBF for vectors.
+        A registered name, an object, or None for the space's usual one: spatial keyframes
+        for poses, RBF for vectors.
+    random_state : int, optional
+        Seed for a method that leaves its own open.
 
     Returns
     -------
     back-projector
-        Unfitted. For poses, an estimator that rebuilds vectors is made to rebuild poses.
+        Unfitted. For poses, a method that rebuilds vectors is made to rebuild poses.
 
     Raises
     ------
     WorkbenchError
         If the name is unknown or the method rebuilds poses and the space holds vectors.
     """
-    from sklearn.base import clone
-
     from workbench.backprojection.poses import PoseBackProjector
-    from workbench.backprojection.regressor import RegressorBackProjector
+    from workbench.backprojection.regressor import RegressorBackProjector, predicts_one_number
     from workbench.errors import WorkbenchError
 
     poses = isinstance(space, PoseSpace)
     if back_projector is None:
         back_projector = "spatial-keyframes" if poses else "rbf"
-    if isinstance(back_projector, str):
-        estimator = back_projectors.create(back_projector)
-    else:
-        estimator = clone(back_projector)
-    if isinstance(estimator, PoseBackProjector):
+    built = back_projectors.build(back_projector, random_state)
+    if isinstance(built, PoseBackProjector):
         if not poses:
             raise WorkbenchError(
                 f"back-projector: got {back_projector!r}, which rebuilds poses, "
                 f"want one for vectors such as 'rbf' (data: {space.name!r})"
             )
-        return estimator
-    if type(estimator).__module__.startswith("sklearn."):
-        estimator = RegressorBackProjector(estimator)
-    return PoseBackProjector(estimator) if poses else estimator
+        return built
+    if predicts_one_number(built):
+        built = RegressorBackProjector(built)
+    return PoseBackProjector(built) if poses else built

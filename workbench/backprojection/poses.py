@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from sklearn.base import BaseEstimator, clone
+from sklearn.base import BaseEstimator
 from sklearn.utils.validation import check_is_fitted
 
 from workbench.backprojection.rbf import RBF
 from workbench.errors import WorkbenchError
 from workbench.mocap.rotations import nearest_rotations
+from workbench.registry import fresh_copy
 
 
 class PoseBackProjector(BaseEstimator):
@@ -63,7 +64,7 @@ class PoseBackProjector(BaseEstimator):
                 f"want ({len(np.asarray(points))}, n_joints, 3, 3)"
             )
         self.n_joints_ = poses.shape[1]
-        self.regressor_ = clone(self.regressor).fit(points, poses.reshape(len(poses), -1))
+        self.regressor_ = fresh_copy(self.regressor).fit(points, poses.reshape(len(poses), -1))
         return self
 
     def predict(self, points: ArrayLike) -> NDArray[np.float64]:

@@ -86,6 +86,9 @@ class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):
         rank = int(np.sum(singular > 1e-10 * singular[0]))
         span, free = left[:, :rank], left[:, rank:]
 
+        # Relative to one sample, so that equal samples stay equal everywhere, exactly.
+        base = values[0]
+        values = values - base
         kernel = _distances(scaled, scaled)
         weights = _solve_negative_definite(free, kernel, values)
         rest = span.T @ (values - kernel @ weights)
@@ -94,7 +97,10 @@ class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):
         self.centers_ = centers
         self.weights_ = weights / size
         self.polynomial_ = np.vstack(
-            [coefficients[0] - (middle / size) @ coefficients[1:], coefficients[1:] / size]
+            [
+                base + coefficients[0] - (middle / size) @ coefficients[1:],
+                coefficients[1:] / size,
+            ]
         )
         return self
 

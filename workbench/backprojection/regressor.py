@@ -6,11 +6,25 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from sklearn.base import BaseEstimator, MultiOutputMixin, RegressorMixin, clone
+from sklearn.base import BaseEstimator, MultiOutputMixin, RegressorMixin, clone, is_regressor
 from sklearn.multioutput import MultiOutputRegressor
 from sklearn.neighbors import KNeighborsRegressor
 from sklearn.utils import get_tags
 from sklearn.utils.validation import check_is_fitted, validate_data
+
+
+def predicts_one_number(method: Any) -> bool:
+    """Tell whether a method is a scikit-learn regressor for a single output.
+
+    Examples
+    --------
+    >>> from sklearn.svm import SVR
+    >>> predicts_one_number(SVR()), predicts_one_number(KNeighborsRegressor())
+    (True, False)
+    """
+    if not hasattr(method, "__sklearn_tags__"):
+        return False
+    return is_regressor(method) and not get_tags(method).target_tags.multi_output
 
 
 class RegressorBackProjector(MultiOutputMixin, RegressorMixin, BaseEstimator):
@@ -63,7 +77,7 @@ class RegressorBackProjector(MultiOutputMixin, RegressorMixin, BaseEstimator):
             regressor = KNeighborsRegressor(n_neighbors=min(5, len(points)))
         else:
             regressor = clone(self.regressor)
-        if np.ndim(targets) == 2 and not get_tags(regressor).target_tags.multi_output:
+        if np.ndim(targets) == 2 and predicts_one_number(regressor):
             regressor = MultiOutputRegressor(regressor)
         self.regressor_ = regressor.fit(points, targets)
         return self

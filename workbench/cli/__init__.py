@@ -68,6 +68,8 @@ def main() -> None:
         # The reader, `head` for instance, has seen enough.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         sys.exit(1)
+    except MemoryError:
+        _fail("the machine's memory does not suffice; take fewer samples", 2)
     except OSError as error:
         _fail(f"{error.filename or 'file'}: {error.strerror or error}", 2)
     sys.exit(status if isinstance(status, int) else 0)

@@ -12,7 +12,7 @@ from workbench.cli import options
 from workbench.errors import WorkbenchError
 
 if TYPE_CHECKING:
-    from workbench.schemes import SpatialResult
+    from workbench.results import SpatialResult
     from workbench.spaces import PoseSpace, Space
 
 
@@ -46,18 +46,15 @@ def project(
     space = _load(data, label, standardize)
     scheme = SpatialScheme(projector, control_points, back_projector, chosen)
     result = scheme.run(space, random_state=seed, **amount)
+    values = {
+        **asdict(result.quality),
+        "reconstruction_error": result.error,
+        "relative_reconstruction_error": result.relative_error,
+        "seconds": result.timings.total,
+    }
     if writer is not None:
         writer(_embedding_table(result), out)
-    quality = asdict(result.quality)
-    options.report(
-        {
-            **quality,
-            "reconstruction_error": result.error,
-            "relative_reconstruction_error": result.relative_error,
-            "seconds": result.timings.total,
-        },
-        json,
-    )
+    options.report(values, json)
 
 
 def keyframes(
@@ -108,7 +105,8 @@ def compact(
 
     from workbench.compact import compact_motion, write_compact
     from workbench.quality.reconstruction import compression_ratio, position_error
-    from workbench.schemes import SpatialResult, SpatialScheme, TemporalScheme
+    from workbench.results import SpatialResult
+    from workbench.schemes import SpatialScheme, TemporalScheme
 
     space = _load_motion(clip)
     scheme: TemporalScheme | SpatialScheme

@@ -24,7 +24,7 @@ Clip = Annotated[str, typer.Argument(help="Name of a clip (cmu/05_10) or path of
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Count = Annotated[int | None, typer.Option(help="Number of control points.")]
 Ratio = Annotated[float | None, typer.Option(help="Share of control points, between 0 and 1.")]
-Seed = Annotated[int, typer.Option(help="Seed of everything random.")]
+Seed = Annotated[int, typer.Option(min=0, max=2**32 - 1, help="Seed of everything random.")]
 Out = Annotated[Path | None, typer.Option(help="File to write the result to.")]
 
 

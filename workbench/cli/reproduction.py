@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from workbench.cli.options import Json, report
+from workbench.cli.options import Json, Seed, report
 from workbench.errors import WorkbenchError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def reproduce(
     jobs: Annotated[
         int, typer.Option(help="Processes that compute at once; -1 for one on each core.")
     ] = -1,
-    seed: Annotated[int, typer.Option(help="Seed of everything random.")] = 0,
+    seed: Seed = 0,
     out: Annotated[Path, typer.Option(help="Folder for the report.")] = Path("reproduction"),
     json: Json = False,
 ) -> None:

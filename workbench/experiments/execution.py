@@ -15,7 +15,8 @@ from workbench.experiments.store import Arrays, Row
 from workbench.experiments.versions import versions
 from workbench.projection import project
 from workbench.quality.summary import EmbeddingQuality, embedding_quality
-from workbench.schemes import Result, SpatialResult, SpatialScheme
+from workbench.results import Result, SpatialResult
+from workbench.schemes import SpatialScheme
 from workbench.spaces import Space
 
 

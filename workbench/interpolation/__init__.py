@@ -16,5 +16,6 @@ interpolators = Registry(
         "linear": "workbench.interpolation.linear:Linear",
         "slerp": "workbench.interpolation.slerp:Slerp",
     },
+    needs=("interpolate",),
 )
 register_interpolator = interpolators.register

@@ -9,7 +9,9 @@ from __future__ import annotations
 from workbench.registry import Registry
 
 optimizers = Registry(
-    "optimizer", {"alg12": "workbench.optimization.gradient_descent:GradientDescent"}
+    "optimizer",
+    {"alg12": "workbench.optimization.gradient_descent:GradientDescent"},
+    needs=("optimize",),
 )
 register_optimizer = optimizers.register
 

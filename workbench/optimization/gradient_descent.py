@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.optimization.objective import Callback, Objective, OptimizationResult
-from workbench.validation import as_embedding
+from workbench.validation import as_embedding, control_point_indices
 
 
 class GradientDescent:
@@ -60,9 +60,14 @@ class GradientDescent:
         tol: float = 1e-6,
         patience: int = 20,
     ) -> None:
-        for name, value in (("step", step), ("probe", probe), ("max_sweeps", max_sweeps)):
+        for name, value in (("step", step), ("probe", probe)):
             if not value > 0:
                 raise WorkbenchError(f"{name}: got {value}, want a number above 0")
+        for name, value in (("max_sweeps", max_sweeps), ("patience", patience)):
+            if not isinstance(value, int) or value < 1:
+                raise WorkbenchError(f"{name}: got {value}, want a whole number above 0")
+        if not tol >= 0:
+            raise WorkbenchError(f"tol: got {tol}, want 0 or a number above")
         self.step = step
         self.probe = probe
         self.max_sweeps = max_sweeps
@@ -95,10 +100,19 @@ class GradientDescent:
         Returns
         -------
         OptimizationResult
+
+        Raises
+        ------
+        WorkbenchError
+            If the arrays do not fit each other, or the back-projector gives values that
+            are not finite.
         """
         points = as_embedding(embedding).copy()
-        free = np.asarray(free, dtype=np.intp)
-        pairs = np.asarray(neighbors)[free]
+        free = control_point_indices(free, len(points), name="free")
+        neighbors = np.asarray(neighbors)
+        if neighbors.shape != (len(points), 2):
+            raise WorkbenchError(f"neighbors: got shape {neighbors.shape}, want ({len(points)}, 2)")
+        pairs = neighbors[free]
         started_at = objective.evaluations
         errors = objective(points[free], free)
         history = [float(errors.mean())]

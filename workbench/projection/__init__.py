@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.errors import WorkbenchError
+from workbench.errors import DataError, WorkbenchError
 from workbench.registry import Registry
-from workbench.spaces import Space, VectorSpace
+from workbench.spaces import Space, VectorSpace, check_space
 from workbench.validation import as_embedding
 
 projectors = Registry(
@@ -26,6 +26,7 @@ projectors = Registry(
         "tsne": "workbench.projection.tsne:TSNE",
         "umap": "workbench.projection.umap:UMAP",
     },
+    needs=("fit_transform",),
 )
 register_projector = projectors.register
 
@@ -40,7 +41,7 @@ def project(
     space : Space
         The samples.
     projector : str or scikit-learn transformer
-        A registered name or an estimator with ``fit_transform``; it is cloned, not changed.
+        A registered name or an object with ``fit_transform``; it is copied, not changed.
     random_state : int, optional
         Seed for a projector that has that parameter and leaves it open.
 
@@ -52,7 +53,7 @@ def project(
     Raises
     ------
     WorkbenchError
-        If the name is unknown or the result is no embedding.
+        If the name is unknown, all samples are equal or the result is no embedding.
 
     Examples
     --------
@@ -60,14 +61,12 @@ def project(
     >>> project(VectorSpace([[0.0, 0.0], [4.0, 0.0], [2.0, 1.0]]), "pca").max()
     np.float64(1.0)
     """
-    from sklearn.base import clone
-
-    estimator = projectors.create(projector) if isinstance(projector, str) else clone(projector)
-    parameters = estimator.get_params(deep=False)
-    if "random_state" in parameters and parameters["random_state"] is None:
-        estimator.set_params(random_state=random_state)
+    check_space(space)
+    estimator = projectors.build(projector, random_state)
+    if not np.ptp(space.features, axis=0).any():
+        raise DataError(f"{space.name or 'data'}: all samples are equal, want some that differ")
     samples = space.features
-    if "metric" in parameters and not isinstance(space, VectorSpace):
+    if hasattr(estimator, "metric") and not isinstance(space, VectorSpace):
         estimator.set_params(metric="precomputed")
         samples = space.distances
     name = projector if isinstance(projector, str) else type(projector).__name__
@@ -100,4 +99,5 @@ def scale_to_unit_square(embedding: NDArray[np.float64]) -> NDArray[np.float64]:
     extent = float(np.ptp(embedding, axis=0).max())
     if not extent > 0:
         raise WorkbenchError("embedding: got one place for all samples, want different places")
-    return (embedding - low) / extent
+    # Twelve digits: places that differ by rounding noise only become the same place.
+    return np.round((embedding - low) / extent, 12)

@@ -7,6 +7,7 @@ import warnings
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils import check_random_state
+from umap import UMAP as LearnUMAP  # noqa: N811 - a class, whatever its capitals
 
 from workbench.projection.base import Projector
 
@@ -44,11 +45,6 @@ class UMAP(Projector):
         self.random_state = random_state
 
     def _project(self, X: NDArray[np.float64]) -> NDArray[np.float64]:
-        # Imported here because umap-learn takes seconds to import.
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", ImportWarning)
-            from umap import UMAP as LearnUMAP  # noqa: N811 - the same name is meant
-
         n_neighbors = self._at_most("n_neighbors", len(X) - 1, f"{len(X)} samples")
         seed = check_random_state(self.random_state).randint(2**31 - 1)
         with warnings.catch_warnings():

@@ -1,7 +1,7 @@
 """Neighbourhoods: which neighbours an embedding keeps, loses and invents.
 
-A sample is never its own neighbour. Ranks count from 1; equal distances rank in the order
-of the samples.
+A sample is never its own neighbour. Ranks count from 1; distances that are equal, to 1e-10
+of the largest, rank in the order of the samples.
 """
 
 from __future__ import annotations
@@ -13,14 +13,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.validation import as_embedding
+from workbench.validation import as_distances, as_embedding
 
 _BLOCK = 512
+
+# Distances that differ by less, relative to the largest, differ by rounding.
+_TIE = 1e-10
 
 
 @dataclass(frozen=True)
 class NeighborhoodQuality:
-    """Neighbourhood measures for several sizes k, all 1 for a perfect embedding.
+    """Neighbourhood measures for several sizes k, all 1 for an embedding that keeps all ranks.
 
     Attributes
     ----------
@@ -88,12 +91,12 @@ def neighborhood_quality(
     >>> float(neighborhood_quality(data, plane, 2).preservation[0])
     1.0
     """
-    data = np.asarray(distances, dtype=np.float64)
-    points = as_embedding(embedding, n=len(data))
+    points = as_embedding(embedding)
+    data = as_distances(distances, len(points))
     n = len(points)
-    sizes = np.atleast_1d(np.asarray(k, dtype=np.intp))
-    if data.shape != (n, n):
-        raise WorkbenchError(f"distances: got shape {data.shape}, want a square matrix")
+    sizes = np.atleast_1d(np.asarray(k))
+    if sizes.ndim != 1 or not sizes.size or not np.issubdtype(sizes.dtype, np.integer):
+        raise WorkbenchError(f"k: got {k!r}, want one or several whole numbers")
     if sizes.min() < 1 or 2 * sizes.max() >= n:
         raise WorkbenchError(
             f"k: got {sizes.min()}…{sizes.max()}, want sizes from 1 to {(n - 1) // 2} "
@@ -122,11 +125,13 @@ def _rank_blocks(
     """Yield the ranks by both distances for blocks of rows, so that memory stays bounded."""
     from scipy.spatial.distance import cdist
 
+    data_unit = float(data.max()) * _TIE or 1.0
+    point_unit = float(np.linalg.norm(np.ptp(points, axis=0))) * _TIE or 1.0
     for start in range(0, len(points), _BLOCK):
         stop = min(start + _BLOCK, len(points))
         yield (
-            _ranks(data[start:stop].copy(), start),
-            _ranks(cdist(points[start:stop], points), start),
+            _ranks(np.round(data[start:stop] / data_unit), start),
+            _ranks(np.round(cdist(points[start:stop], points) / point_unit), start),
         )
 
 

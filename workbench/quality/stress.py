@@ -9,10 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from workbench.errors import WorkbenchError
-from workbench.validation import as_embedding
+from workbench.validation import as_distances, as_embedding
 
 #: Rows of the distance matrix handled at once, which bounds the memory of temporaries.
 _BLOCK = 512
@@ -97,10 +97,8 @@ def scale_normalized_stress(distances: ArrayLike, embedding: ArrayLike) -> float
 def _pair_sums(distances: ArrayLike, embedding: ArrayLike) -> _PairSums:
     from scipy.spatial.distance import cdist
 
-    data: NDArray[np.float64] = np.asarray(distances, dtype=np.float64)
-    points = as_embedding(embedding, n=len(data))
-    if data.shape != (len(points), len(points)):
-        raise WorkbenchError(f"distances: got shape {data.shape}, want a square matrix")
+    points = as_embedding(embedding)
+    data = as_distances(distances, len(points))
     data2 = product = points2 = 0.0
     for start in range(0, len(points), _BLOCK):
         rows = slice(start, start + _BLOCK)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from workbench.quality.neighborhoods import default_neighborhood_size, neighborhood_quality
@@ -54,7 +55,7 @@ def embedding_quality(distances: ArrayLike, embedding: ArrayLike) -> EmbeddingQu
         If the shapes do not fit or all points coincide.
     """
     plain = stress(distances, embedding)
-    k = default_neighborhood_size(len(embedding))  # type: ignore[arg-type]  # checked by stress
+    k = default_neighborhood_size(len(np.asarray(embedding)))
     near = neighborhood_quality(distances, embedding, k)
     return EmbeddingQuality(
         stress=plain,

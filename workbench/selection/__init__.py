@@ -28,5 +28,6 @@ selectors = Registry(
         "uniform": "workbench.selection.uniform:Uniform",
         "random": "workbench.selection.random:Random",
     },
+    needs=("select",),
 )
 register_selector = selectors.register
