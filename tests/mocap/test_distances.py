@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from workbench.errors import WorkbenchError
 from workbench.mocap.distances import (
     position_distance_matrix,
     position_distance_pairs,
@@ -66,3 +69,41 @@ def test_position_distances_agree_with_the_printed_formula():
     first, second = np.array([0, 3]), np.array([7, 2])
     pairs = position_distance_pairs(positions[first], positions[second], WEIGHTS)
     assert np.allclose(pairs, expected[first, second])
+
+
+_MATRIX = [(rotation_distance_matrix, (3, 3)), (position_distance_matrix, (3,))]
+_PAIRS = [(rotation_distance_pairs, (3, 3)), (position_distance_pairs, (3,))]
+_UNFIT = {
+    "more-weights": ((5, 4), 9),
+    "fewer-weights": ((5, 4), 3),
+    "no-joints-axis": ((5,), 4),
+    "flat": ((), 4),
+    "another-axis": ((5, 4, 2), 4),
+}
+
+
+@pytest.mark.parametrize("shape", _UNFIT.values(), ids=_UNFIT.keys())
+@pytest.mark.parametrize(
+    ("measure", "entries"), [*_MATRIX, *_PAIRS], ids=["d_q", "d_p", "d_q-pairs", "d_p-pairs"]
+)
+def test_shapes_that_do_not_fit_are_refused(measure, entries, shape):
+    """Poses and weights of different joints are refused with both shapes."""
+    poses, weights = np.zeros((*shape[0], *entries)), np.ones(shape[1])
+    arguments = [poses] if (measure, entries) in _MATRIX else [poses, poses]
+    found = re.escape(f"got shapes {poses.shape} and ({shape[1]},)")
+    with pytest.raises(WorkbenchError, match=found):
+        measure(*arguments, weights)
+
+
+@pytest.mark.parametrize(("measure", "entries"), _PAIRS, ids=["rotations", "positions"])
+def test_pairs_of_different_length_are_refused(measure, entries):
+    """Every pose wants a partner of the same joints."""
+    for other in [(3, 4), (6, 4), (5, 3)]:
+        with pytest.raises(WorkbenchError, match=r"got shapes"):
+            measure(np.zeros((5, 4, *entries)), np.zeros((*other, *entries)), np.ones(4))
+
+
+def test_weights_may_be_whole_numbers(poses):
+    """Weights given as integers, or poses as lists, mean the same."""
+    expected = rotation_distance_matrix(poses, np.array([2.0, 1.0, 0.0, 3.0]))
+    assert np.array_equal(rotation_distance_matrix(poses.tolist(), [2, 1, 0, 3]), expected)

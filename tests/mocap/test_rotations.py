@@ -11,7 +11,9 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.spatial.transform import Rotation
 
+from workbench.errors import WorkbenchError
 from workbench.mocap.rotations import (
+    axis_rotation,
     euler_from_rotations,
     geodesic_angles,
     nearest_rotations,
@@ -66,10 +68,63 @@ def test_fewer_axes_rotate_about_these_only():
     assert np.allclose(rotations_from_euler("Y", [30.0]), expected)
 
 
-def test_wrong_number_of_angles_is_refused():
-    """A message names the number of angles that the order wants."""
-    with pytest.raises(ValueError, match="got 2 angles, want 3"):
-        rotations_from_euler("XYZ", [1.0, 2.0])
+_NAN = np.full((2, 3, 3), np.nan)
+_REFUSED = {
+    "axis": (lambda: axis_rotation("x", 90), r"axis: got 'x', want 'X', 'Y' or 'Z'"),
+    "axis-of-no-kind": (lambda: axis_rotation(["X"], 90), r"axis: got \['X'\]"),
+    "angle-in-words": (lambda: axis_rotation("X", "right"), "degrees: got what is no array"),
+    "order": (lambda: rotations_from_euler("XQZ", [1, 2, 3]), "order: got 'XQZ'"),
+    "no-order": (lambda: rotations_from_euler(None, [1, 2, 3]), "order: got None"),
+    "angles": (
+        lambda: rotations_from_euler("XYZ", [1.0, 2.0]),
+        r"degrees of the order 'XYZ': got shape \(2,\), want \(\.\.\., 3\)",
+    ),
+    "single-angle": (lambda: rotations_from_euler("X", 1.0), r"got shape \(\), want \(\.\.\., 1\)"),
+    "order-back": (lambda: euler_from_rotations("XYX", np.eye(3)), "three different axes"),
+    "no-order-back": (lambda: euler_from_rotations(None, np.eye(3)), "three different axes"),
+    "shape-back": (
+        lambda: euler_from_rotations("XYZ", np.eye(2)),
+        r"rotations: got shape \(2, 2\), want \(\.\.\., 3, 3\)",
+    ),
+    "vectors-of-shape": (lambda: rotation_vectors(np.ones(9)), r"got shape \(9,\)"),
+    "vectors-of-nan": (lambda: rotation_vectors(_NAN), "not finite"),
+    "vectors-of-mirror": (lambda: rotation_vectors(-np.eye(3)), "singular or mirrored"),
+    "from-vectors-shape": (lambda: rotations_from_vectors(np.ones((4, 2))), r"shape \(4, 2\)"),
+    "from-vectors-nan": (lambda: rotations_from_vectors([0, np.nan, 0]), "not finite"),
+    "unwrap": (lambda: unwrap_degrees(3.0), "want shape"),
+    "nearest-shape": (lambda: nearest_rotations(np.ones((3, 4))), r"matrices: got shape \(3, 4\)"),
+    "nearest-nan": (lambda: nearest_rotations(_NAN), "matrices: got numbers that are not finite"),
+    "nearest-inf": (lambda: nearest_rotations(np.diag([1, np.inf, 1])), "not finite"),
+    "angle-shape": (lambda: geodesic_angles(np.ones(3), np.eye(3)), r"a: got shape \(3,\)"),
+    "angle-pairs": (
+        lambda: geodesic_angles(np.ones((2, 3, 3)), np.ones((4, 3, 3))),
+        r"got shapes \(2, 3, 3\) and \(4, 3, 3\)",
+    ),
+}
+
+
+@pytest.mark.parametrize("case", _REFUSED.values(), ids=_REFUSED.keys())
+def test_unfit_input_is_refused(case):
+    """A message names the argument, what it got and what it wants."""
+    call, message = case
+    with pytest.raises(WorkbenchError, match=message):
+        call()
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+@pytest.mark.parametrize("entry", range(9))
+def test_one_bad_entry_among_many_is_found(entry, value):
+    """Wherever it stands, a number that is not finite is refused, not turned into a rotation."""
+    poses = np.tile(np.eye(3), (7, 5, 1, 1))
+    poses[4, 3].flat[entry] = value
+    with pytest.raises(WorkbenchError, match="matrices: got numbers that are not finite"):
+        nearest_rotations(poses)
+
+
+def test_nearest_rotation_of_huge_matrices():
+    """Finite entries whose squares overflow are no reason to refuse a matrix."""
+    turn = rotations_from_euler("XYZ", [10.0, 20.0, 30.0])
+    assert np.abs(nearest_rotations(1e300 * turn) - turn).max() < 1e-12
 
 
 def test_nearest_rotation_leaves_rotations_alone():

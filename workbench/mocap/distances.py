@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 from numba import prange
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from workbench.errors import WorkbenchError
 from workbench.kernels import compiled, compiled_parallel
 
 
@@ -66,10 +67,15 @@ def rotation_distance_matrix(
     -------
     ndarray of shape (n_poses, n_poses)
         Symmetric, zero on the diagonal; radians times the weights' unit.
+
+    Raises
+    ------
+    WorkbenchError
+        If the shapes are others or do not fit each other.
     """
-    poses = _rows(rotations)
+    poses, weights = _fitting("rotations", rotations, weights, (3, 3))
     result = np.zeros((len(poses), len(poses)))
-    _rotation_distance_matrix(poses, np.ascontiguousarray(weights), result)
+    _rotation_distance_matrix(_rows(poses), weights, result)
     return result
 
 
@@ -88,9 +94,15 @@ def rotation_distance_pairs(
     Returns
     -------
     ndarray of shape (n_pairs,)
+
+    Raises
+    ------
+    WorkbenchError
+        If the shapes are others or do not fit each other.
     """
+    a, b, weights = _fitting_pairs(a, b, weights, (3, 3))
     result = np.empty(len(a))
-    _rotation_distance_pairs(_rows(a), _rows(b), np.ascontiguousarray(weights), result)
+    _rotation_distance_pairs(_rows(a), _rows(b), weights, result)
     return result
 
 
@@ -112,7 +124,13 @@ def position_distance_pairs(
     -------
     ndarray of shape (n_pairs,)
         In squared file units.
+
+    Raises
+    ------
+    WorkbenchError
+        If the shapes are others or do not fit each other.
     """
+    a, b, weights = _fitting_pairs(a, b, weights, (3,))
     return np.einsum("ijk,ijk,j->i", a - b, a - b, weights)
 
 
@@ -135,12 +153,49 @@ def position_distance_matrix(
     -------
     ndarray of shape (n_poses, n_poses)
         In squared file units.
+
+    Raises
+    ------
+    WorkbenchError
+        If the shapes are others or do not fit each other.
     """
     from scipy.spatial.distance import cdist
 
+    positions, weights = _fitting("positions", positions, weights, (3,))
     scaled = (positions * np.sqrt(weights)[:, None]).reshape(len(positions), -1)
     return cdist(scaled, scaled, "sqeuclidean")
 
 
-def _rows(rotations: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.ascontiguousarray(rotations, dtype=np.float64).reshape(len(rotations), -1)
+def _fitting(
+    name: str, poses: ArrayLike, weights: ArrayLike, entries: tuple[int, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Refuse shapes with which a compiled loop would read beyond the end of an array."""
+    poses = np.ascontiguousarray(poses, dtype=np.float64)
+    weights = np.ascontiguousarray(weights, dtype=np.float64)
+    if (
+        poses.ndim != 2 + len(entries)
+        or poses.shape[2:] != entries
+        or weights.shape != poses.shape[1:2]
+    ):
+        wanted = ", ".join(["n_poses", "n_joints", *map(str, entries)])
+        raise WorkbenchError(
+            f"{name} and weights: got shapes {poses.shape} and {weights.shape}, "
+            f"want ({wanted}) and (n_joints,)"
+        )
+    return poses, weights
+
+
+def _fitting_pairs(
+    a: ArrayLike, b: ArrayLike, weights: ArrayLike, entries: tuple[int, ...]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    first, weights = _fitting("a", a, weights, entries)
+    second, weights = _fitting("b", b, weights, entries)
+    if first.shape != second.shape:
+        raise WorkbenchError(
+            f"a and b: got shapes {first.shape} and {second.shape}, want the same shape"
+        )
+    return first, second, weights
+
+
+def _rows(poses: NDArray[np.float64]) -> NDArray[np.float64]:
+    return poses.reshape(len(poses), 9 * poses.shape[1])

@@ -12,6 +12,7 @@ import numpy as np
 from numba import prange
 from numpy.typing import ArrayLike, NDArray
 
+from workbench.errors import WorkbenchError
 from workbench.kernels import compiled, compiled_parallel
 
 _AXES = {"X": 0, "Y": 1, "Z": 2}
@@ -31,12 +32,19 @@ def axis_rotation(axis: str, degrees: ArrayLike) -> NDArray[np.float64]:
     -------
     ndarray of shape (..., 3, 3)
 
+    Raises
+    ------
+    WorkbenchError
+        If there is no such axis, or the angles are no numbers.
+
     Examples
     --------
     >>> axis_rotation("Z", 90.0).round(6) @ np.array([1.0, 0.0, 0.0])
     array([0., 1., 0.])
     """
-    angle = np.radians(np.asarray(degrees, dtype=np.float64))
+    if axis not in tuple(_AXES):  # a tuple, because what cannot be hashed is no axis either
+        raise WorkbenchError(f"axis: got {axis!r}, want 'X', 'Y' or 'Z'")
+    angle = np.radians(_numbers("degrees", degrees))
     k = _AXES[axis]
     i, j = (k + 1) % 3, (k + 2) % 3
     matrix = np.zeros((*angle.shape, 3, 3))
@@ -64,14 +72,19 @@ def rotations_from_euler(order: str, degrees: ArrayLike) -> NDArray[np.float64]:
     -------
     ndarray of shape (..., 3, 3)
 
+    Raises
+    ------
+    WorkbenchError
+        If there is no such axis, or not one angle for each.
+
     Examples
     --------
     >>> rotations_from_euler("ZX", [90.0, 90.0]).round(6) @ np.array([0.0, 1.0, 0.0])
     array([0., 0., 1.])
     """
-    degrees = np.asarray(degrees, dtype=np.float64)
-    if degrees.shape[-1] != len(order):
-        raise ValueError(f"degrees: got {degrees.shape[-1]} angles, want {len(order)} ({order})")
+    if not isinstance(order, str) or not set(order) <= set(_AXES):
+        raise WorkbenchError(f"order: got {order!r}, want axes such as 'ZYX'")
+    degrees = _numbers(f"degrees of the order {order!r}", degrees, len(order))
     result = np.broadcast_to(np.eye(3), (*degrees.shape[:-1], 3, 3)).copy()
     for column, axis in enumerate(order):
         result = result @ axis_rotation(axis, degrees[..., column])
@@ -94,14 +107,19 @@ def euler_from_rotations(order: str, rotations: ArrayLike) -> NDArray[np.float64
         Angles in degrees, the middle one within [-90, 90]. In gimbal lock, where only a
         sum of the outer angles is determined, the last one is 0.
 
+    Raises
+    ------
+    WorkbenchError
+        If the axes are not three different ones, or the shape is another.
+
     Examples
     --------
     >>> euler_from_rotations("ZXY", rotations_from_euler("ZXY", [10.0, 20.0, 30.0])).round(9)
     array([10., 20., 30.])
     """
-    if sorted(order) != ["X", "Y", "Z"]:
-        raise ValueError(f"order: got {order!r}, want three different axes such as 'ZYX'")
-    rotations = np.asarray(rotations, dtype=np.float64)
+    if not isinstance(order, str) or sorted(order) != ["X", "Y", "Z"]:
+        raise WorkbenchError(f"order: got {order!r}, want three different axes such as 'ZYX'")
+    rotations = _numbers("rotations", rotations, 3, 3)
     i, j, k = (_AXES[axis] for axis in order)
     sign = 1.0 if (j - i) % 3 == 1 else -1.0
     sine = np.clip(sign * rotations[..., i, k], -1.0, 1.0)
@@ -129,6 +147,11 @@ def rotation_vectors(rotations: ArrayLike) -> NDArray[np.float64]:
     ndarray of shape (..., 3)
         Vectors along the axes, as long as the angles in radians, at most π.
 
+    Raises
+    ------
+    WorkbenchError
+        If the shape is another, or a matrix is singular, mirrored or not finite.
+
     Examples
     --------
     >>> rotation_vectors(axis_rotation("Y", 90.0)).round(4)
@@ -136,8 +159,13 @@ def rotation_vectors(rotations: ArrayLike) -> NDArray[np.float64]:
     """
     from scipy.spatial.transform import Rotation
 
-    matrices = np.asarray(rotations, dtype=np.float64)
-    vectors = Rotation.from_matrix(matrices.reshape(-1, 3, 3)).as_rotvec()
+    matrices = _finite("rotations", _numbers("rotations", rotations, 3, 3))
+    try:
+        vectors = Rotation.from_matrix(matrices.reshape(-1, 3, 3)).as_rotvec()
+    except ValueError:
+        raise WorkbenchError(
+            "rotations: got a singular or mirrored matrix, want rotations (see nearest_rotations)"
+        ) from None
     return vectors.reshape(matrices.shape[:-1])
 
 
@@ -153,6 +181,11 @@ def rotations_from_vectors(vectors: ArrayLike) -> NDArray[np.float64]:
     -------
     ndarray of shape (..., 3, 3)
 
+    Raises
+    ------
+    WorkbenchError
+        If the shape is another, or a number is not finite.
+
     Examples
     --------
     >>> np.allclose(rotations_from_vectors([np.pi / 2, 0, 0]), axis_rotation("X", 90.0))
@@ -160,7 +193,7 @@ def rotations_from_vectors(vectors: ArrayLike) -> NDArray[np.float64]:
     """
     from scipy.spatial.transform import Rotation
 
-    array = np.asarray(vectors, dtype=np.float64)
+    array = _finite("vectors", _numbers("vectors", vectors, 3))
     return Rotation.from_rotvec(array.reshape(-1, 3)).as_matrix().reshape(*array.shape, 3)
 
 
@@ -176,12 +209,20 @@ def unwrap_degrees(angles: ArrayLike) -> NDArray[np.float64]:
     -------
     ndarray of the same shape
 
+    Raises
+    ------
+    WorkbenchError
+        If there are no frames to compare, only a single number.
+
     Examples
     --------
     >>> unwrap_degrees([170.0, -170.0])
     array([170., 190.])
     """
-    return np.unwrap(np.asarray(angles, dtype=np.float64), period=360.0, axis=0)
+    curves = _numbers("angles", angles)
+    if curves.ndim == 0:
+        raise WorkbenchError("angles: got a single number, want shape (n_frames, ...)")
+    return np.unwrap(curves, period=360.0, axis=0)
 
 
 @compiled
@@ -224,12 +265,15 @@ def _quaternion_of_largest_eigenvalue(symmetric, quaternion):  # type: ignore[no
 def _nearest_rotation_by_quaternion(m):  # type: ignore[no-untyped-def]  # compiled
     """Solve for the nearest proper rotation of any matrix, singular or reflecting too.
 
-    Maximises Tr(Rᵀ M) over unit quaternions (Horn 1987), an eigenvalue problem.
+    Maximises Tr(Rᵀ M) over unit quaternions (Horn 1987), an eigenvalue problem. Tells
+    whether there is one: not if an entry is not finite.
     """
+    if not np.isfinite(m).all():
+        return False
     scale = np.abs(m).max()
     if scale == 0.0:
         m[:] = np.eye(3)
-        return
+        return True
     a = m / scale
     k = np.empty((4, 4))
     k[0, 0] = a[0, 0] + a[1, 1] + a[2, 2]
@@ -251,15 +295,17 @@ def _nearest_rotation_by_quaternion(m):  # type: ignore[no-untyped-def]  # compi
     m[0, 1], m[1, 0] = 2.0 * (x * y - w * z), 2.0 * (x * y + w * z)
     m[0, 2], m[2, 0] = 2.0 * (x * z + w * y), 2.0 * (x * z - w * y)
     m[1, 2], m[2, 1] = 2.0 * (y * z - w * x), 2.0 * (y * z + w * x)
+    return True
 
 
 @compiled
 def _nearest_rotation(m):  # type: ignore[no-untyped-def]  # compiled
-    """Replace a 3 x 3 matrix by the nearest rotation, in place.
+    """Replace a 3 x 3 matrix by the nearest rotation, in place, and tell whether there is one.
 
     Newton's iteration for the polar factor, X ← (X + X⁻ᵀ) / 2, converges quadratically and
     leaves a rotation as it is; it fits well-conditioned matrices with a positive
-    determinant, nearly all there are. The rest goes to the eigenvalue method.
+    determinant, nearly all there are. The rest goes to the eigenvalue method, also what is
+    not finite, so that looking for that costs the others nothing.
     """
     a, b, c = m[0, 0], m[0, 1], m[0, 2]
     d, e, f = m[1, 0], m[1, 1], m[1, 2]
@@ -297,15 +343,19 @@ def _nearest_rotation(m):  # type: ignore[no-untyped-def]  # compiled
             m[0, 0], m[0, 1], m[0, 2] = a, b, c
             m[1, 0], m[1, 1], m[1, 2] = d, e, f
             m[2, 0], m[2, 1], m[2, 2] = g, h, i
-            return
-    _nearest_rotation_by_quaternion(m)
+            return True
+    return _nearest_rotation_by_quaternion(m)
 
 
 @compiled_parallel
 def _nearest_rotations(matrices):  # type: ignore[no-untyped-def]  # compiled
+    """Replace all matrices in place and count those that have no nearest rotation."""
+    refused = 0
     for row in prange(matrices.shape[0]):
         for joint in range(matrices.shape[1]):
-            _nearest_rotation(matrices[row, joint])
+            if not _nearest_rotation(matrices[row, joint]):
+                refused += 1
+    return refused
 
 
 def nearest_rotations(matrices: ArrayLike) -> NDArray[np.float64]:
@@ -326,6 +376,11 @@ def nearest_rotations(matrices: ArrayLike) -> NDArray[np.float64]:
     ndarray of shape (..., 3, 3)
         Orthogonal matrices of determinant 1.
 
+    Raises
+    ------
+    WorkbenchError
+        If the shape is another, or an entry is not finite.
+
     Examples
     --------
     >>> nearest_rotations(2.0 * np.eye(3))
@@ -333,12 +388,10 @@ def nearest_rotations(matrices: ArrayLike) -> NDArray[np.float64]:
            [0., 1., 0.],
            [0., 0., 1.]])
     """
-    result = np.array(matrices, dtype=np.float64, order="C")
-    if result.shape[-2:] != (3, 3):
-        raise ValueError(f"matrices: got shape {result.shape}, want (..., 3, 3)")
+    result = _numbers("matrices", matrices, 3, 3).copy()
     rows = result.shape[0] if result.ndim == 4 else 1
-    if result.size:
-        _nearest_rotations(result.reshape(rows, -1, 3, 3))
+    if result.size and _nearest_rotations(result.reshape(rows, -1, 3, 3)):
+        raise WorkbenchError("matrices: got numbers that are not finite")
     return result
 
 
@@ -358,11 +411,40 @@ def geodesic_angles(a: ArrayLike, b: ArrayLike) -> NDArray[np.float64]:
     ndarray of shape (...)
         Angles in radians, within [0, π].
 
+    Raises
+    ------
+    WorkbenchError
+        If a shape is another, or the two do not fit each other.
+
     Examples
     --------
     >>> float(np.degrees(geodesic_angles(np.eye(3), axis_rotation("X", 60.0))).round(9))
     60.0
     """
-    difference = np.asarray(a, dtype=np.float64) - np.asarray(b, dtype=np.float64)
+    a, b = _numbers("a", a, 3, 3), _numbers("b", b, 3, 3)
+    try:
+        difference = a - b
+    except ValueError:
+        raise WorkbenchError(
+            f"a and b: got shapes {a.shape} and {b.shape}, want equal ones, or one for all"
+        ) from None
     chord = np.sqrt(np.einsum("...ij,...ij->...", difference, difference))
     return 2.0 * np.arcsin(np.minimum(chord / (2.0 * np.sqrt(2.0)), 1.0))
+
+
+def _numbers(name: str, values: ArrayLike, *ending: int) -> NDArray[np.float64]:
+    """Take values as numbers, refusing an array whose last axes have other lengths."""
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise WorkbenchError(f"{name}: got what is no array of numbers") from None
+    if array.shape[array.ndim - len(ending) :] != ending:
+        wanted = ", ".join(["...", *map(str, ending)])
+        raise WorkbenchError(f"{name}: got shape {array.shape}, want ({wanted})")
+    return array
+
+
+def _finite(name: str, array: NDArray[np.float64]) -> NDArray[np.float64]:
+    if not np.isfinite(array).all():
+        raise WorkbenchError(f"{name}: got numbers that are not finite")
+    return array
