@@ -7,8 +7,8 @@ import os
 import pytest
 
 from workbench.datasets import load
-from workbench.errors import WorkbenchError
-from workbench.experiments.profiles import absent_tables, motion_clips
+from workbench.errors import DataError, WorkbenchError
+from workbench.experiments.profiles import absent_tables, fetch_small_tables, motion_clips
 
 
 def test_quick_uses_short_excerpts_of_the_bundled_clips():
@@ -54,3 +54,15 @@ def test_an_unknown_profile_is_refused():
     """A misspelt profile does not silently mean another one."""
     with pytest.raises(WorkbenchError, match="profile: got 'quik', want 'quick' or 'full'"):
         motion_clips("quik")
+
+
+def test_small_tables_are_fetched_and_failures_are_told() -> None:
+    """Only tables that are missing and small are asked for; one that fails is named."""
+    asked = []
+
+    def fetch(name: str) -> None:
+        asked.append(name)
+        raise DataError("no network")
+
+    missed = fetch_small_tables(["uci/iris", "uci/page-blocks", "uci/unheard-of"], fetch=fetch)
+    assert asked == missed == ["uci/unheard-of"]

@@ -1,6 +1,6 @@
 """Take pictures of a reproduction report.
 
-python -m tests.notebooks.screenshot_report OUT PNG [WIDTH] [dark]
+python -m tests.notebooks.screenshot_report OUT PNG [WIDTH [HEIGHT [dark]]]
 """
 
 from __future__ import annotations
@@ -86,6 +86,7 @@ if __name__ == "__main__":
         Path(sys.argv[1]),
         Path(sys.argv[2]),
         width=int(sys.argv[3]) if len(sys.argv) > 3 else 1280,
-        dark="dark" in sys.argv[4:],
+        height=int(sys.argv[4]) if len(sys.argv) > 4 else None,
+        dark="dark" in sys.argv[5:],
     )
     sys.exit("\n".join(problems))

@@ -84,7 +84,8 @@ def _transfer(source: Source, target: Path, seconds: float) -> None:
     import requests
 
     transfer = pooch.HTTPDownloader(
-        progressbar=_Deadline(seconds), timeout=(CONNECT_SECONDS, READ_SECONDS)
+        progressbar=_Deadline(seconds),
+        timeout=(min(CONNECT_SECONDS, seconds), min(READ_SECONDS, seconds)),
     )
     try:
         transfer(source.address, str(target), None)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING
 
-from workbench.errors import WorkbenchError
+from workbench.errors import DataError, WorkbenchError
 
 if TYPE_CHECKING:
     from workbench.datasets import Status
@@ -79,6 +79,46 @@ def absent_tables(profile: str, datasets: Iterable[str]) -> dict[str, str]:
                 f"{name} is not on this machine; `workbench datasets fetch {name}` downloads it."
             )
     return reasons
+
+
+def fetch_small_tables(
+    datasets: Iterable[str], *, fetch: Callable[[str], object] | None = None
+) -> list[str]:
+    """Download small tables that are on this machine in no folder, if seconds suffice.
+
+    The quick profile runs without them too, so a download that fails is no error.
+
+    Parameters
+    ----------
+    datasets : iterable of str
+        Names of tables; large ones are left out.
+    fetch : callable, optional
+        Downloads one table by name; by default within 5 seconds for each file.
+
+    Returns
+    -------
+    list of str
+        Tables that could not be had.
+    """
+    present = {status.entry.name for status in _present()}
+    missed = []
+    for name in datasets:
+        if name not in present and name not in LARGE_TABLES:
+            try:
+                (fetch or _fetch_within_seconds)(name)
+            except DataError:
+                missed.append(name)
+    return missed
+
+
+def _fetch_within_seconds(name: str) -> None:
+    from workbench.datasets.catalogue import lookup
+    from workbench.datasets.download import download
+    from workbench.datasets.search import cache_folder
+
+    entry = lookup(name)
+    assert entry is not None
+    download(entry, cache_folder(), seconds=5.0)
 
 
 def _is_quick(profile: str) -> bool:
