@@ -45,7 +45,7 @@ lab: $(VENV)/installed ## Open the notebooks in JupyterLab
 screenshots: $(VENV)/installed ## Make the pictures of the README again
 	$(BIN)/python -m tests.browser.make_screenshots docs/images
 	$(BIN)/workbench reproduce --out $(REPORT)
-	$(BIN)/python -m tests.notebooks.screenshot_report $(REPORT) docs/images/report.png 1280 1180
+	$(BIN)/python -m tests.notebooks.screenshot_report $(REPORT) docs/images/report.png 1280 1400
 
 clean: ## Remove everything that was made
 	rm -rf $(VENV) $(REPORT) dist build
