@@ -351,7 +351,7 @@ class PoseSpace(Space):
 
     def mean_prediction_error(self) -> float:
         """Mean error per frame per joint of the mean pose (nearest rotation to the mean)."""
-        from workbench.mocap.rotations import nearest_rotations
+        from workbench.mocap.nearest_rotation import nearest_rotations
 
         mean = nearest_rotations(self.samples.mean(axis=0))
         every = np.broadcast_to(mean, self.samples.shape)

@@ -44,6 +44,37 @@ def as_embedding(
     return finite(array, name)
 
 
+def as_numbers(name: str, values: ArrayLike, *ending: int) -> NDArray[np.float64]:
+    """Take values as numbers, refusing an array whose last axes have other lengths.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name, for the message.
+    values : array-like of shape (..., *ending)
+        The values.
+    *ending : int
+        Lengths of the last axes.
+
+    Returns
+    -------
+    ndarray of shape (..., *ending)
+
+    Raises
+    ------
+    WorkbenchError
+        If they are no numbers or of another shape.
+    """
+    try:
+        array = np.asarray(values, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise WorkbenchError(f"{name}: got what is no array of numbers") from None
+    if array.shape[array.ndim - len(ending) :] != ending:
+        wanted = ", ".join(["...", *map(str, ending)])
+        raise WorkbenchError(f"{name}: got shape {array.shape}, want ({wanted})")
+    return array
+
+
 def finite(array: NDArray[np.float64], name: str) -> NDArray[np.float64]:
     """Refuse missing and infinite values.
 

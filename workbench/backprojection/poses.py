@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted
 
 from workbench.backprojection.rbf import RBF
 from workbench.errors import WorkbenchError
-from workbench.mocap.rotations import nearest_rotations
+from workbench.mocap.nearest_rotation import nearest_rotations
 from workbench.registry import fresh_copy
 
 
