@@ -4,11 +4,19 @@ from __future__ import annotations
 
 import re
 import shlex
+import textwrap
 from pathlib import Path
 
 import pytest
 
-README = (Path(__file__).parents[1] / "README.md").read_text(encoding="utf-8")
+from workbench.backprojection import back_projectors
+from workbench.datasets import load_space, loaders
+from workbench.projection import projectors
+from workbench.schemes import SpatialScheme
+from workbench.selection import selectors
+
+ROOT = Path(__file__).parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
 COMMANDS = re.findall(r"^    workbench (.+)$", README, flags=re.M)
 
 
@@ -31,9 +39,20 @@ def test_the_commands_exist(run, command):
     assert all(option in out for option in options)
 
 
+def test_the_examples_for_contributors_run(monkeypatch):
+    """The snippets of CONTRIBUTING.md register methods and data that then work by name."""
+    for registry in (projectors, selectors, back_projectors, loaders._registered):
+        monkeypatch.setattr(registry, "_entries", dict(registry._entries))
+    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", text, flags=re.M)
+    exec(textwrap.dedent("".join(blocks)), {})
+    space = load_space("mine/cube")
+    scheme = SpatialScheme("axes", selector="nearest", back_projector="forest")
+    assert scheme.run(space, ratio=0.2, random_state=0).error > 0
+
+
 def test_links_and_pictures_are_there():
     """Every local link of the README leads to a file."""
     links = re.findall(r"\]\(([^)#:]+)\)", README)
-    folder = Path(__file__).parents[1]
     assert links
-    assert [link for link in links if not (folder / link).exists()] == []
+    assert [link for link in links if not (ROOT / link).exists()] == []

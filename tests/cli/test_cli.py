@@ -7,6 +7,7 @@ import os
 import subprocess
 import sys
 
+import nbformat
 import pandas as pd
 import pytest
 
@@ -214,6 +215,23 @@ def test_figures_are_listed(run, tmp_path):
     assert status == 0
     assert {"costa2018:fig5.3", "costa2018:tab5.1"} <= {item["id"] for item in items}
     assert all(set(item) == {"id", "notebook", "state"} for item in items)
+
+
+def test_a_failing_notebook_fails_the_command(run, tmp_path, monkeypatch):
+    """The report is written, --json stays one object, and the status is 2."""
+    notebooks = tmp_path / "notebooks"
+    notebooks.mkdir()
+    cell = nbformat.v4.new_code_cell("raise RuntimeError('out of luck')")
+    kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
+    notebook = nbformat.v4.new_notebook(cells=[cell], metadata=kernel)
+    nbformat.write(notebook, notebooks / "costa2018_table_5_1.ipynb")
+    monkeypatch.setattr("workbench.experiments.reproduce.bundled", lambda _: notebooks)
+    out_folder = tmp_path / "report"
+    status, out, err = run("reproduce", "costa2018:tab5.1", "--json", "--out", out_folder)
+    assert status == 2
+    assert [item["state"] for item in json.loads(out)["items"]] == ["failed"]
+    assert err.splitlines()[-1].startswith("workbench: error: failed: costa2018_table_5_1")
+    assert "out of luck" in (out_folder / "index.html").read_text()
 
 
 def test_heavy_packages_are_not_imported_for_help():

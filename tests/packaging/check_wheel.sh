@@ -25,4 +25,5 @@ esac
 "$bin/workbench" compact cmu/01_01-jump --projector pca --optimize --json
 "$bin/workbench" reproduce costa2018:fig5.13 --out "$place/report"
 test -s "$place/report/index.html"
+"$bin/workbench" reproduce costa2018:fig5.13 --list --json --out "$place/report" | grep -q '"state": "done"'
 echo "The wheel works outside the checkout."
