@@ -144,14 +144,20 @@ def test_a_worker_that_dies_costs_its_own_runs_only(tmp_path: Path, monkeypatch)
             os.kill(os.getpid(), signal.SIGKILL)
         return original(group, folder)
 
-    runs = [*PAIR, Run("uci/wine", RAW, ratio=0.05)]
+    runs = [
+        *PAIR,
+        Run("uci/wine", RAW, ratio=0.05),
+        Run("uci/wine", OPTIMIZED, ratio=0.05),
+        Run("cmu/01_03-walk", RAW, count=9),
+        Run("uci/iris", RAW, ratio=0.05, standardize=True),
+    ]
     with monkeypatch.context() as patch:
         patch.setattr(grid, "_execute_whole_group", dies_on_wine)
-        with pytest.warns(UserWarning, match="worker process ended"):
+        with pytest.warns(UserWarning, match=r"worker process of uci/wine \(2 runs\) ended"):
             table = run_grid(runs, tmp_path, n_jobs=2)
-    assert table["status"][2] == "failed"
+    assert table["status"].tolist() == ["done", "done", "failed", "failed", "done", "done"]
     assert table["message"][2].startswith("uci/wine, pca, random")
-    assert run_grid(runs, tmp_path)["status"].tolist() == ["done"] * 3
+    assert run_grid(runs, tmp_path)["status"].tolist() == ["done"] * 6
 
 
 def test_warnings_are_kept_with_the_result(tmp_path: Path):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -209,16 +210,36 @@ def _execute_groups(
         for group in groups:
             yield from _execute_group(group, folder)
         return
+    unfinished = list(groups)
+    try:
+        for rows in _execute_in_processes(groups, folder, n_jobs):
+            unfinished = [group for group in unfinished if group[0][1] not in rows]
+            yield rows
+    except BrokenProcessPool:
+        warnings.warn(
+            "a worker process ended; what was not finished is run again, one data set at a time",
+            stacklevel=2,
+        )
+    else:
+        return
+    # The end of one worker ends the whole pool. Alone in a pool, a group can only end itself.
+    for group in unfinished:
+        try:
+            yield from _execute_in_processes([group], folder, n_jobs)
+        except BrokenProcessPool:
+            names = f"{group[0][1].dataset} ({len(group)} runs)"
+            # What was stored before counts; the caller names the runs that are missing.
+            warnings.warn(f"the worker process of {names} ended", stacklevel=2)
+
+
+def _execute_in_processes(
+    groups: Sequence[list[_Keyed]], folder: Path, n_jobs: int
+) -> Iterator[dict[Run, Row]]:
     from joblib import Parallel, delayed, parallel_config
-    from joblib.externals.loky.process_executor import BrokenProcessPool
 
     with parallel_config("loky", n_jobs=n_jobs, inner_max_num_threads=1):
         pool = Parallel(return_as="generator_unordered")
-        try:
-            yield from pool(delayed(_execute_whole_group)(group, folder) for group in groups)
-        except BrokenProcessPool as error:
-            # What was stored before counts; the caller names the runs that are missing.
-            warnings.warn(f"a worker process ended: {error}", stacklevel=2)
+        yield from pool(delayed(_execute_whole_group)(group, folder) for group in groups)
 
 
 def _execute_whole_group(group: Sequence[_Keyed], folder: Path) -> dict[Run, Row]:
