@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import os
+import signal
+import threading
 import time
 from collections.abc import Iterator
 from typing import Any
@@ -94,7 +96,7 @@ def test_errors_come_back_in_plain_words(shared: Background, error: Exception, w
 def test_what_cannot_be_sent_is_told(shared: Background) -> None:
     """An object that belongs to this process only is refused with a reason."""
     with pytest.raises(WorkbenchError, match="beside the kernel"):
-        call(shared, lambda lock: lock, __import__("threading").Lock())
+        call(shared, lambda lock: lock, threading.Lock())
 
 
 def test_stopping_ends_a_computation_at_once_and_the_next_call_works() -> None:
@@ -123,3 +125,48 @@ def test_a_process_that_dies_is_told_and_replaced() -> None:
         call(background, os._exit, 1)
     assert call(background, abs, -3) == (1, 3)
     background.stop()
+
+
+@pytest.mark.parametrize("way", ["cancelled", "report fails"])
+def test_a_call_that_ends_early_leaves_no_answer_to_the_next(way: str) -> None:
+    """The next call gets its own result, not the one that nobody waited for."""
+    background = Background(Calculator)
+
+    async def cancel() -> None:
+        started = asyncio.Event()
+        early = asyncio.create_task(
+            background.call("apply", time.sleep, 0.1, report=lambda *_: started.set())
+        )
+        await asyncio.wait_for(started.wait(), 60)
+        early.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await early
+
+    def fail(*_: Any) -> None:
+        raise OSError("the page is gone")
+
+    if way == "cancelled":
+        asyncio.run(cancel())
+    else:
+        with pytest.raises(OSError, match="the page is gone"):
+            asyncio.run(background.call("apply", abs, -1, report=fail))
+    assert call(background, abs, -42)[1] == 42
+    background.stop()
+
+
+def test_a_result_that_cannot_be_sent_is_told(shared: Background) -> None:
+    """It is an error in words, not an end of the process."""
+    before, _ = call(shared, abs, 0)
+    with pytest.raises(WorkbenchError, match="cannot pickle"):
+        call(shared, lambda _: threading.Lock())
+    assert call(shared, abs, 0)[0] == before + 2
+
+
+def test_an_interrupt_of_the_kernel_ends_nothing(shared: Background) -> None:
+    """The signal that reaches the whole process group is left to the kernel."""
+
+    def interrupted(value: int) -> int:
+        os.kill(os.getpid(), signal.SIGINT)
+        return value + 1
+
+    assert call(shared, interrupted, 41)[1] == 42

@@ -10,6 +10,7 @@ from __future__ import annotations
 import asyncio
 import multiprocessing
 import os
+import signal
 import weakref
 from collections.abc import Callable
 from multiprocessing.connection import Connection
@@ -78,32 +79,46 @@ class Background:
             raise WorkbenchError(f"cannot be computed beside the kernel: {error}") from error
         process, connection = self._started()
         try:
-            connection.send_bytes(request)
-            while True:
-                while not connection.poll():
-                    await asyncio.sleep(_PAUSE)
-                kind, value = connection.recv()
-                if process is not self._process:
-                    raise Stopped
-                if kind == "report":
-                    report(*value)
-                elif kind == "failed":
-                    raise WorkbenchError(value)
-                else:
-                    return value
-        except (EOFError, OSError) as error:
-            if process is not self._process:
-                raise Stopped from None
-            self.stop()
-            raise WorkbenchError(
-                "the computation ended by itself; the data may need more memory than there is"
-            ) from error
+            kind, value = await self._answer(request, process, connection, report)
+        except BaseException:
+            # Its answer would otherwise be taken for that of the next call.
+            if process is self._process:
+                self.stop()
+            raise
+        if kind == "failed":
+            raise WorkbenchError(value)
+        return value
 
     def stop(self) -> None:
         """End the process with whatever it is doing; the next call starts another."""
         process, self._process, self._connection = self._process, None, None
         if process is not None:
             process.kill()
+
+    async def _answer(
+        self, request: bytes, process: BaseProcess, connection: Connection, report: Report
+    ) -> tuple[str, Any]:
+        """Send a request, pass on what is reported, and give the answer with its kind."""
+        while True:
+            try:
+                if request:
+                    connection.send_bytes(request)
+                while not connection.poll():
+                    await asyncio.sleep(_PAUSE)
+                kind, value = connection.recv()
+            except (EOFError, OSError) as error:
+                if process is not self._process:
+                    raise Stopped from None
+                raise WorkbenchError(
+                    "the computation ended by itself; the data may need more memory than there is"
+                ) from error
+            if process is not self._process:
+                raise Stopped
+            if kind != "report":
+                return kind, value
+            # Not within the try: what fails in the kernel is not the process's end.
+            report(*value)
+            request = b""
 
     def _started(self) -> tuple[BaseProcess, Connection]:
         if self._process is None or self._connection is None or not self._process.is_alive():
@@ -120,6 +135,8 @@ class Background:
 
 def _serve(connection: Connection, factory: Callable[[], Any]) -> None:
     """Answer calls until the other end is gone."""
+    # Interrupting the kernel signals its whole process group, and ends no computation here.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
     # Read when the first compiled loop is loaded. Threads that spin while they wait make
     # t-SNE seven times slower as soon as something else wants a core.
     os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
@@ -138,11 +155,15 @@ def _serve(connection: Connection, factory: Callable[[], Any]) -> None:
         try:
             method, args = cloudpickle.loads(request)
             served = served or factory()
-            answer = ("done", getattr(served, method)(*args, report=report))
+            # Pickled here, where a result that cannot be is a failure like any other.
+            answer = cloudpickle.dumps(("done", getattr(served, method)(*args, report=report)))
         except BrokenPipeError:
             return
         except WorkbenchError as error:
-            answer = ("failed", str(error))
+            answer = cloudpickle.dumps(("failed", str(error)))
         except Exception as error:  # a user's own method may fail in any way
-            answer = ("failed", f"{type(error).__name__}: {error}")
-        connection.send(answer)
+            answer = cloudpickle.dumps(("failed", f"{type(error).__name__}: {error}"))
+        try:
+            connection.send_bytes(answer)
+        except BrokenPipeError:
+            return
