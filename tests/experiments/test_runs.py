@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +14,7 @@ from sklearn.decomposition import PCA
 from workbench.errors import WorkbenchError
 from workbench.experiments import runs
 from workbench.experiments.runs import Run, content_key, space_checksum
+from workbench.experiments.versions import code_digest, digest_of_code, versions
 from workbench.mocap.motion import Motion
 from workbench.schemes import SpatialScheme, TemporalScheme
 from workbench.spaces import PoseSpace, VectorSpace
@@ -36,23 +39,54 @@ def test_key_changes_with_every_part_of_a_run(change):
     assert content_key(replace(RUN, **change), "data") != content_key(RUN, "data")
 
 
-def test_key_changes_with_the_data_and_the_version(monkeypatch):
-    """A result of other data or another version is not taken for this one's."""
+def test_key_changes_with_the_data_the_code_and_the_versions(monkeypatch):
+    """A result of other data, other code or another numpy is not taken for this one's."""
     key = content_key(RUN, "data")
     assert content_key(RUN, "other data") != key
-    monkeypatch.setattr(runs, "__version__", "9.9")
-    assert content_key(RUN, "data") != key
+    with monkeypatch.context() as patch:
+        patch.setattr(runs, "code_digest", lambda: "other code")
+        assert content_key(RUN, "data") != key
+    for package in ("workbench", "numpy", "scikit-learn", "umap-learn"):
+        with monkeypatch.context() as patch:
+            patch.setattr(runs, "versions", lambda package=package: {**versions(), package: "0"})
+            assert content_key(RUN, "data") != key
+    assert content_key(RUN, "data") == key
 
 
 def test_key_is_the_same_in_every_process(monkeypatch):
     """The key is the known SHA-256 of known content, not something of this process."""
-    monkeypatch.setattr(runs, "__version__", "1.0")
+    monkeypatch.setattr(runs, "versions", lambda: {"numpy": "2.4"})
+    monkeypatch.setattr(runs, "code_digest", lambda: "def")
     text = (
-        '{"data":"abc","run":{"back_projector":null,"count":null,"dataset":"uci/iris",'
-        '"kind":"spatial","optimizer":null,"projector":"pca","ratio":0.03,"seed":0,'
-        '"selector":"random","standardize":false},"version":"1.0"}'
+        '{"code":"def","data":"abc","run":{"back_projector":null,"count":null,'
+        '"dataset":"uci/iris","kind":"spatial","optimizer":null,"projector":"pca","ratio":0.03,'
+        '"seed":0,"selector":"random","standardize":false},"versions":{"numpy":"2.4"}}'
     )
     assert content_key(RUN, "abc") == hashlib.sha256(text.encode()).hexdigest()
+
+
+@pytest.mark.parametrize(
+    ("module", "decides"),
+    [
+        ("kernels.py", True),
+        ("projection/pca.py", True),
+        ("optimization/objective.py", True),
+        ("experiments/execution.py", True),
+        ("experiments/report.py", False),
+        ("figures/style.py", False),
+        ("cli/new.py", False),
+    ],
+)
+def test_digest_notices_code_that_computes(tmp_path: Path, module: str, decides: bool):
+    """A changed line of a projector changes the digest; one of the report does not."""
+    package = tmp_path / "workbench"
+    source = Path(runs.__file__).parents[1]
+    shutil.copytree(source, package, ignore=shutil.ignore_patterns("__pycache__"))
+    before = digest_of_code(package)
+    assert before == code_digest()
+    path = package / module
+    path.write_text((path.read_text() if path.exists() else "") + "x = 1\n")
+    assert (digest_of_code(package) != before) == decides
 
 
 def test_checksum_notices_one_changed_bit():

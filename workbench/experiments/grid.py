@@ -71,8 +71,8 @@ def run_grid(
     """Execute runs and gather their results in one table.
 
     Each finished run is stored at once, under a key made of the run, the content of its
-    data and the version of this package, and is never computed again: a grid that was
-    interrupted, however abruptly, goes on where it was. Runs on one data set are executed
+    data, the code and the versions that compute it, and is never computed again: a grid that
+    was interrupted, however abruptly, goes on where it was. Runs on one data set are executed
     together, so that its distances and projections are computed once; data sets are
     distributed over the processes, the largest first, one numerical thread each.
 

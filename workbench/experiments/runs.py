@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench import __version__
 from workbench.errors import WorkbenchError
+from workbench.experiments.versions import code_digest, versions
 from workbench.schemes import SpatialScheme, TemporalScheme
 from workbench.spaces import PoseSpace, Space
 
@@ -104,9 +104,10 @@ def scheme_name(scheme: Scheme) -> str:
 def content_key(run: Run, checksum: str) -> str:
     """Compute the key under which a run's result is stored.
 
-    It changes with everything that may change the result: the run, the data and the version
-    of this package. A method registered under the same name with other code behind it is
-    not noticed; give it another name.
+    It changes with everything that may change the result: the run, the data, the code of
+    this package that computes, and the versions of the packages that it computes with. A
+    method registered from outside under the same name with other code behind it is not
+    noticed; give it another name.
 
     Parameters
     ----------
@@ -120,7 +121,12 @@ def content_key(run: Run, checksum: str) -> str:
     str
         SHA-256 in hexadecimal digits.
     """
-    content = {"run": run.specification(), "data": checksum, "version": __version__}
+    content = {
+        "run": run.specification(),
+        "data": checksum,
+        "code": code_digest(),
+        "versions": versions(),
+    }
     canonical = json.dumps(content, sort_keys=True, separators=(",", ":"), ensure_ascii=True)
     return hashlib.sha256(canonical.encode()).hexdigest()
 
