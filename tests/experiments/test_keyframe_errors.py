@@ -76,6 +76,29 @@ def test_optimized_schemes_are_compared_with_slerp_clip_by_clip():
     assert row["clips where better"] == "2 of 3"
 
 
+def test_medians_come_from_the_clips_that_all_have():
+    """A failed run on the first clip takes that clip out of every median of the row."""
+    without = TABLE[~((TABLE["scheme"] == TSNE_RAW) & (TABLE["dataset"] == "cmu/a"))]
+    row = keyframe_errors.medians_against_slerp(without).loc["t-SNE"]
+    assert row["median raw"] == pytest.approx((0.6 + 0.7) / 2)
+    assert row["median optimized"] == pytest.approx((0.6 + 0.45) / 2)
+    assert row["optimized / slerp, ours"] == pytest.approx((0.6 + 0.45) / (0.5 + 0.9))
+    assert row["clips where better"] == "1 of 2"
+
+
+def test_schemes_without_a_common_clip_are_not_compared():
+    """Where no clip has all three runs there is no row, rather than one without numbers."""
+    slerp = (TABLE["scheme"] == SLERP) & (TABLE["dataset"] != "cmu/a")
+    apart = TABLE[~slerp & ~((TABLE["scheme"] == TSNE) & (TABLE["dataset"] == "cmu/a"))]
+    assert keyframe_errors.medians_against_slerp(apart).empty
+
+
+def test_one_clip_is_not_clips():
+    """The caption of a single clip of a single length reads as a sentence."""
+    text = keyframe_errors.describe_clips(TABLE[TABLE["dataset"] == "cmu/a"])
+    assert text.startswith("1 CMU clip of 100 frames (a), where the thesis had 70")
+
+
 def test_the_caption_says_which_clips_and_what_failed():
     """Clips, their number and lengths, and failures are in the sentence."""
     failure = {

@@ -196,7 +196,8 @@ def medians_against_slerp(table: pd.DataFrame) -> pd.DataFrame:
     DataFrame
         One row per spatial scheme: median error raw and optimized, the optimized one
         relative to slerp's median, that ratio as published, and on how many clips the
-        optimized scheme beats slerp.
+        optimized scheme beats slerp. All of a row is of the clips on which all three runs
+        are finished.
     """
     temporal = errors_by_scheme(table, TEMPORAL)
     raw = errors_by_scheme(table, RAW)
@@ -206,15 +207,19 @@ def medians_against_slerp(table: pd.DataFrame) -> pd.DataFrame:
     for name in ORDER:
         if name not in optimized or name not in raw or "Slerp" not in temporal:
             continue
-        pairs = pd.concat([optimized[name], temporal["Slerp"]], axis=1, join="inner")
+        errors = {"raw": raw[name], "optimized": optimized[name], "slerp": temporal["Slerp"]}
+        clips = pd.concat(errors, axis=1, join="inner")
+        if clips.empty:
+            continue
+        medians = clips.median()
         rows[name] = {
-            "median raw": raw[name].median(),
-            "median optimized": optimized[name].median(),
-            "optimized / slerp, ours": optimized[name].median() / temporal["Slerp"].median(),
+            "median raw": medians["raw"],
+            "median optimized": medians["optimized"],
+            "optimized / slerp, ours": medians["optimized"] / medians["slerp"],
             "optimized / slerp, published": (
                 theirs[name].median / theirs["Slerp"].median if name in theirs else None
             ),
-            "clips where better": f"{(pairs.iloc[:, 0] < pairs.iloc[:, 1]).sum()} of {len(pairs)}",
+            "clips where better": f"{(clips['optimized'] < clips['slerp']).sum()} of {len(clips)}",
         }
     result = pd.DataFrame.from_dict(rows, orient="index")
     result.index.name = "scheme"
@@ -229,8 +234,11 @@ def describe_clips(table: pd.DataFrame) -> str:
         raise WorkbenchError(f"all runs failed; the first: {table['message'].iloc[0]}")
     names = ", ".join(name.removeprefix("cmu/") for name in clips["dataset"])
     lengths = clips["n_samples"].astype(int)
+    number = "1 CMU clip" if len(clips) == 1 else f"{len(clips)} CMU clips"
+    shortest, longest = lengths.min(), lengths.max()
+    span = str(longest) if shortest == longest else f"{shortest} to {longest}"
     text = (
-        f"{len(clips)} CMU clips of {lengths.min()} to {lengths.max()} frames ({names}), where "
+        f"{number} of {span} frames ({names}), where "
         "the thesis had 70; uniform keyframes, 3 %, first and last frame included."
     )
     return f"{text} {describe_failures(table)}".strip()
