@@ -65,6 +65,21 @@ def test_a_row_holds_what_the_scheme_gives(tmp_path: Path):
     assert row["seconds_optimize"] > 0
 
 
+@pytest.mark.parametrize("columns", [2, 3])
+def test_a_perfect_embedding_has_no_stress_ratio(tmp_path: Path, columns: int):
+    """A plane, in two columns or tilted in three, leaves nothing but rounding to divide by."""
+    plane = np.random.default_rng(0).normal(size=(60, 2)) @ [[3.0, 0.5, 1.0], [0.2, 2.0, 1.0]]
+    file = tmp_path / "plane.csv"
+    frame = pd.DataFrame(plane[:, :columns], columns=list("xyz")[:columns])
+    frame.to_csv(file, index=False)
+    runs = [Run(str(file), scheme, ratio=0.1) for scheme in (RAW, OPTIMIZED)]
+    table = run_grid(runs, tmp_path / "results")
+    assert table["message"].tolist() == ["", ""]
+    assert table["projected_scale_normalized_stress"].max() < 1e-14
+    assert table["scale_normalized_stress_ratio"].isna().all()
+    assert table["stress_ratio"].notna().all()
+
+
 def test_embeddings_are_kept_with_the_result(tmp_path: Path):
     """The arrays of a run are the embeddings of the scheme."""
     row = run_grid(PAIR, tmp_path).iloc[1]

@@ -72,3 +72,10 @@ def test_failed_runs_are_in_the_caption_and_not_in_the_figure(store: ResultStore
     assert uci_panels(failed, WINE, store) == []
     assert len(uci_table(failed, [WINE])) == 0
     assert "4 of 4 runs failed; the first: uci/wine: broken" in uci_caption(failed, WINE)
+
+
+def test_a_projection_without_stress_has_no_ratio(table: pd.DataFrame):
+    """A missing ratio is left out of the values and named in the caption."""
+    without = table.assign(stress_ratio=table["stress_ratio"].mask(~table["standardize"]))
+    assert list(uci_ratios(without, WINE)) == ["one step, standardised data"]
+    assert "optimization: none on data as they are, " in uci_caption(without, WINE)

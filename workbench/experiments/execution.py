@@ -19,6 +19,9 @@ from workbench.results import Result, SpatialResult
 from workbench.schemes import SpatialScheme
 from workbench.spaces import Space
 
+#: Stress up to which an embedding is perfect: a plane, projected by PCA, has about 1e-15.
+_NO_STRESS = 1e-12
+
 
 @dataclass(frozen=True)
 class Projection:
@@ -147,10 +150,15 @@ def _spatial_values(result: SpatialResult, before: EmbeddingQuality) -> Row:
     return {
         **asdict(after),
         **{f"projected_{name}": value for name, value in asdict(before).items() if name != "k"},
-        "stress_ratio": after.stress / before.stress,
-        "scale_normalized_stress_ratio": (
-            after.scale_normalized_stress / before.scale_normalized_stress
+        "stress_ratio": _ratio(after.stress, before.stress),
+        "scale_normalized_stress_ratio": _ratio(
+            after.scale_normalized_stress, before.scale_normalized_stress
         ),
         "evaluations": result.evaluations,
         "iterations": result.optimization.iterations if result.optimization else 0,
     }
+
+
+def _ratio(after: float, before: float) -> float | None:
+    """Divide two stresses; None where there was no stress but noise of rounding."""
+    return after / before if before > _NO_STRESS else None

@@ -189,9 +189,16 @@ def uci_table(table: pd.DataFrame, figures: Iterable[UciFigure]) -> pd.DataFrame
 
 
 def uci_ratios(table: pd.DataFrame, figure: UciFigure) -> dict[str, float]:
-    """Give the stress ratios (Eq. 4.1) of a figure by what they were computed on."""
+    """Give the stress ratios (Eq. 4.1) of a figure by what they were computed on.
+
+    Data whose projection had no stress have none.
+    """
     rows = _finished(table, figure, figure.optimized)
-    return {f"one step, {_data(row)}": row["stress_ratio"] for row in rows}
+    return {
+        f"one step, {_data(row)}": row["stress_ratio"]
+        for row in rows
+        if pd.notna(row["stress_ratio"])
+    }
 
 
 def uci_caption(table: pd.DataFrame, figure: UciFigure) -> str:
@@ -216,7 +223,11 @@ def uci_caption(table: pd.DataFrame, figure: UciFigure) -> str:
             f"{int(rows[0]['n_control_points'])} control points (crosses), projected by "
             f"{figure.method}."
         )
-        ratios = ", ".join(f"{row['stress_ratio']:.2f} on {_data(row)}" for row in rows)
+        ratios = ", ".join(
+            f"{'none' if pd.isna(row['stress_ratio']) else format(row['stress_ratio'], '.2f')} "
+            f"on {_data(row)}"
+            for row in rows
+        )
         parts.append(f"Stress (Eq. 4.1) after / before optimization: {ratios}.")
     remark = published(figure.item).note if figure.item in published_ids() else ""
     parts += [
