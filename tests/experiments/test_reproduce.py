@@ -264,7 +264,7 @@ def test_rendering_has_a_time_limit(tmp_path: Path, monkeypatch):
 
     monkeypatch.setattr(images.subprocess, "Popen", hang)
     notice = write_pngs([tmp_path / "figure.json"], seconds=0.5)
-    assert notice == "No PNG images: the browser did not finish within 0 s."
+    assert notice == "No PNG images: the browser did not finish within 0.5 s."
     assert started[0].returncode is not None
 
 

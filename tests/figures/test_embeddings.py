@@ -51,6 +51,15 @@ def test_the_legend_names_each_class_once():
     assert sorted(shown) == ["a", "b", "c", "control point"]
 
 
+def test_names_of_classes_are_text():
+    """Tags and fields in a class's name are neither drawn as markup nor filled in."""
+    labels = np.where(LABELS == "a", "<b>%{x}</b> R&D", LABELS)
+    trace = next(t for t in embedding_panels(_panels(), labels=labels).data if "R&" in t.name)
+    shown = "&lt;b&gt;%&#123;x}&lt;/b&gt; R&amp;D"
+    assert trace.name == shown
+    assert trace.hovertemplate == f"{shown}, sample %{{customdata}}<extra></extra>"
+
+
 def test_ten_classes_can_be_told_apart():
     """Colour and symbol together are different for more classes than there are colours."""
     assert len({class_style(index) for index in range(20)}) == 20

@@ -46,7 +46,7 @@ def write_pngs(figures: Sequence[Path], *, seconds: float | None = None) -> str:
         _, complaint = process.communicate(timeout=limit)
     except subprocess.TimeoutExpired:
         _end(process)
-        return f"No PNG images: the browser did not finish within {limit:.0f} s."
+        return f"No PNG images: the browser did not finish within {limit:g} s."
     if process.returncode == 0:
         return ""
     reason = (complaint.strip().splitlines() or [f"exit status {process.returncode}"])[-1]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -115,13 +116,14 @@ def _panel_traces(
     dots: list[go.Scatter | go.Scattergl] = []
     crosses: list[go.Scatter | go.Scattergl] = []
     for index, name in enumerate(names):
+        shown = _as_text(name)
         color, symbol = (BLUE, "circle") if len(names) == 1 else class_style(index)
         for control in (False, True):
             chosen = np.flatnonzero((classes == name) & (is_control == control))
             if len(chosen) == 0 and control:
                 continue
             trace = scatter(
-                name=name,
+                name=shown,
                 x=panel.points[chosen, 0],
                 y=panel.points[chosen, 1],
                 customdata=chosen,
@@ -133,7 +135,7 @@ def _panel_traces(
                     if control
                     else {"symbol": symbol, "size": 5, "color": color, "opacity": 0.75}
                 ),
-                hovertemplate=f"{name}, sample %{{customdata}}"
+                hovertemplate=f"{shown}, sample %{{customdata}}"
                 + (" (control point)" if control else "")
                 + "<extra></extra>",
             )
@@ -154,3 +156,8 @@ def _panel_traces(
             )
         )
     return dots + crosses
+
+
+def _as_text(name: str) -> str:
+    """Keep plotly from reading tags, entities or the fields of a template in a name."""
+    return html.escape(name, quote=False).replace("{", "&#123;")
