@@ -31,6 +31,7 @@ def iris(shared: ProjectionComparison) -> ProjectionComparison:
     shared.open("uci/iris")
     controls = shared.controls
     controls.standardize.value = False
+    controls.ratio.value = 0.1
     controls.count.value = 2
     for index, name in enumerate(("pca", "mds")):
         controls.projector[index].value = name
@@ -109,6 +110,52 @@ def test_a_file_of_ones_own_is_shown(iris: ProjectionComparison, tmp_path: Any) 
     assert iris.view.scatter.class_names == ["x", "y"]
     assert iris.controls.data.value == ""
     assert iris.view.details.columns == ["a", "b", "c"]
+
+
+def test_an_edited_file_is_read_again(iris: ProjectionComparison, tmp_path: Any) -> None:
+    """Computing again and opening again show what is in the file now; the old panels stay."""
+    path = tmp_path / "edited.csv"
+
+    def write(n_rows: int) -> None:
+        rows = np.random.default_rng(n_rows).normal(size=(n_rows, 3)).tolist()
+        path.write_text("\n".join(["a,b,c", *(",".join(map(str, row)) for row in rows)]))
+
+    def shown() -> tuple[str, int, int]:
+        return iris.message, *(len(iris.results[letter].embedding) for letter in "AB")
+
+    write(20)
+    iris.open(path)
+    assert shown() == ("", 20, 20)
+    write(25)
+    iris.recompute()
+    assert shown() == ("", 25, 25)
+    write(30)
+    iris.open(path)
+    assert shown() == ("", 30, 30)
+    path.unlink()
+    iris.recompute()
+    assert "no such file" in iris.message
+    assert shown()[1:] == (30, 30)
+    write(35)
+    iris.recompute()
+    assert shown() == ("", 35, 35)
+
+
+def test_panels_never_show_two_versions_of_a_file(
+    iris: ProjectionComparison, tmp_path: Any
+) -> None:
+    """A process that has to read the file anew refuses one that was edited meanwhile."""
+    path = tmp_path / "edited.csv"
+    path.write_text("a,b\n" + "\n".join(f"{i},{i * i % 7}" for i in range(20)))
+    iris.open(path)
+    path.write_text("a,b\n" + "\n".join(f"{i},{i * i % 5}" for i in range(21)))
+    iris.cancel()
+    iris.controls.projector[1].value = "isomap"
+    assert states(iris) == ["ready", "failed"]
+    assert "the file has changed" in iris.view.scatter.panels[1]["message"]
+    iris.recompute()
+    assert states(iris) == ["ready", "ready"]
+    assert len(iris.results["A"].embedding) == 21
 
 
 def test_the_selection_is_kept_with_settings_and_cleared_with_data(
@@ -286,11 +333,39 @@ def test_another_choice_replaces_what_is_being_computed(iris: ProjectionComparis
 
     async def main() -> None:
         iris.controls.projector[1].value = "slow"
-        await asyncio.sleep(0.3)
+        while "projecting" not in iris.view._doing.value:
+            await asyncio.sleep(0.02)
         iris.controls.projector[1].value = "isomap"
         await asyncio.wait_for(iris.finished(), 50)
 
     asyncio.run(main())
+    assert states(iris) == ["ready", "ready"]
+
+
+@pytest.mark.parametrize("part", ["data", "panel"])
+def test_any_error_is_told_in_its_place(
+    iris: ProjectionComparison, monkeypatch: pytest.MonkeyPatch, part: str
+) -> None:
+    """No panel stays "computing" when, for instance, no process can be started."""
+    iris.cancel()
+
+    def refuse() -> Any:
+        raise OSError("too many processes")
+
+    async def main() -> None:
+        if part == "data":
+            iris.open("uci/wine")
+        else:
+            iris.controls.ratio.value = 0.07
+        await asyncio.wait_for(iris.finished(), 60)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(iris._background, "_started", refuse)
+        asyncio.run(main())
+    told = iris.message if part == "data" else iris.view.scatter.panels[1]["message"]
+    assert told == "OSError: too many processes"
+    iris.recompute()
+    assert iris.message == ""
     assert states(iris) == ["ready", "ready"]
 
 

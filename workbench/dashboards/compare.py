@@ -16,7 +16,15 @@ from workbench.dashboards.background import Background, Stopped
 from workbench.dashboards.comparison_view import ComparisonView, PanelState
 from workbench.dashboards.controls import Controls
 from workbench.dashboards.quality_view import LETTERS
-from workbench.dashboards.session import Panel, PanelResult, Run, Session, Source, Summary
+from workbench.dashboards.session import (
+    Panel,
+    PanelResult,
+    Run,
+    Session,
+    Source,
+    Summary,
+    file_version,
+)
 from workbench.errors import WorkbenchError
 from workbench.projection import projectors
 from workbench.spaces import Space
@@ -102,6 +110,8 @@ class ProjectionComparison:
             raise WorkbenchError(f"ratio: got {ratio}, want {_RATIOS[0]} to {_RATIOS[1]}")
         self._background = Background(Session)
         self._working = False
+        # Kept, because a loop holds its tasks only weakly.
+        self._task: asyncio.Task[None] | None = None
         self._current: Source | Run | None = None
         self._wanted = _source(data, label, standardize)
         self._source: Source | None = None
@@ -153,8 +163,9 @@ class ProjectionComparison:
 
     async def finished(self) -> None:
         """Wait until everything is computed: ``await dashboard.finished()``."""
-        while self._working:
-            await asyncio.sleep(0.05)
+        while self._working and self._task is not None:
+            # Shielded, because who gives up waiting does not cancel the computation.
+            await asyncio.shield(self._task)
 
     def open(self, data: str | Path | Space, label: str | None = None) -> None:
         """Show other data; those shown now stay if the new ones cannot be loaded.
@@ -176,11 +187,16 @@ class ProjectionComparison:
         self._show()
 
     def recompute(self) -> None:
-        """Compute what failed or was cancelled, or everything anew if nothing did."""
+        """Compute what failed or was cancelled, or everything anew if nothing did.
+
+        A file that was edited meanwhile is read again.
+        """
         self.controls.offer_projectors(projectors.names())
-        if not self._failures:
+        wanted = _reread(self._wanted)
+        if not self._failures and wanted == self._wanted:
             self._results.clear()
         self._failures.clear()
+        self._wanted = wanted
         self._wake()
 
     def close(self) -> None:
@@ -225,7 +241,6 @@ class ProjectionComparison:
         if loop is None:
             asyncio.run(self._work())
         else:
-            # Kept, because a loop holds its tasks only weakly.
             self._task = loop.create_task(self._work())
 
     async def _work(self) -> None:
@@ -253,6 +268,8 @@ class ProjectionComparison:
             pass
         except WorkbenchError as error:
             self._failures[job] = str(error)
+        except Exception as error:  # told in its place: nobody awaits the task
+            self._failures[job] = f"{type(error).__name__}: {error}"
 
     def _take(self, source: Source, summary: Summary) -> None:
         """Show samples that were loaded instead of those before."""
@@ -318,6 +335,7 @@ class ProjectionComparison:
 
     def _on_standardize(self, change: Any) -> None:
         base = self._source if self._source is not None and self.message else self._wanted
+        base = _reread(base)
         if base.registered:
             base = replace(base, space=None, token=next(_tokens))
         self._want(replace(base, standardize=change["new"]))
@@ -346,10 +364,16 @@ def _source(data: str | Path | Space, label: str | None, standardize: bool) -> S
     path = Path(name).expanduser()
     try:
         if path.exists():
-            return Source(str(path.absolute()), label, standardize)
+            name = str(path.absolute())
+            return Source(name, label, standardize, version=file_version(name))
     except OSError:  # too long for a path, for instance
         pass
     return Source(name, label, standardize, token=next(_tokens), registered=True)
+
+
+def _reread(source: Source) -> Source:
+    """Take notice of a file that was edited."""
+    return replace(source, version=file_version(source.name)) if source.version else source
 
 
 def _loaded_here(source: Source) -> Source:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -47,6 +48,9 @@ class Source:
         Tells samples in memory apart, because a copy in another process is another object.
     registered : bool
         Whether a loader that the user registered in the kernel gives the samples.
+    version : tuple of int
+        Tells a file of the user's apart from itself before it was edited, see
+        :func:`file_version`; empty for samples from elsewhere.
     """
 
     name: str
@@ -55,6 +59,7 @@ class Source:
     space: Space | None = field(default=None, compare=False)
     token: int = 0
     registered: bool = False
+    version: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -227,8 +232,10 @@ class Session:
             report(f"optimizing, sweep {sweep}", 0.5 + 0.4 * min(1.0, sweep / 200))
 
         report("back-projecting", 0.5)
+        # Not by its name, which only the kernel knows if its user registered it.
         scheme = SpatialScheme(
-            run.panel.projector, optimizer="alg12" if run.panel.optimized else None
+            projectors.create(run.panel.projector),
+            optimizer="alg12" if run.panel.optimized else None,
         )
         with _said_by_warnings() as said:
             result = scheme.run(
@@ -289,12 +296,15 @@ def load_source(source: Source) -> tuple[Space, tuple[str, ...]]:
     Raises
     ------
     DataError
-        If they cannot be loaded or there are too many of them.
+        If they cannot be loaded, there are too many of them, or their file was edited since it
+        was opened: panels would show different samples side by side.
     """
     from workbench.datasets import Table, load
 
     notes: tuple[str, ...] = ()
     space = source.space
+    if source.version and source.version != file_version(source.name):
+        raise DataError(f"{source.name}: the file has changed; compute again to read it anew")
     if space is None:
         data = load(source.name, label=source.label)
         if isinstance(data, Table):
@@ -307,6 +317,15 @@ def load_source(source: Source) -> tuple[Space, tuple[str, ...]]:
             "between all of them must fit into memory"
         )
     return space, notes
+
+
+def file_version(path: str) -> tuple[int, int]:
+    """Give the time of a file's last change, in nanoseconds, and its size; zeros if missing."""
+    try:
+        status = os.stat(path)
+    except OSError:
+        return 0, 0
+    return status.st_mtime_ns, status.st_size
 
 
 def summarize(space: Space, notes: tuple[str, ...] = ()) -> Summary:
