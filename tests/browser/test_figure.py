@@ -39,6 +39,7 @@ def figures(mount: Callable, visit: Any) -> Any:
     packed = base64.b64encode(_packed_library()).decode()
     visit.page.evaluate(_ANSWER, packed)
     mount(line(), width=500)
+    visit.page.locator(".js-plotly-plot .main-svg").nth(2).wait_for(state="attached")
     mount(line(), width=350)
     visit.page.locator(".js-plotly-plot .main-svg").nth(5).wait_for(state="attached")
     return visit.page
@@ -71,3 +72,26 @@ def test_another_figure_replaces_the_first(figures: Any) -> None:
     figure = go.Figure(layout={"template": "none", "title": {"text": "another"}})
     figures.evaluate("(json) => mounted[0].model.set('figure', json)", figure.to_json())
     figures.locator(".gtitle", has_text="another").wait_for()
+
+
+@pytest.mark.parametrize("fault", ["unanswered", "closed", "failed"])
+def test_a_figure_without_an_answer_does_not_disable_the_next(
+    mount: Callable, visit: Any, fault: str
+) -> None:
+    """Whatever became of the first figure's question, the second asks for itself."""
+    bad = "(receive) => receive({kind: 'plotly.js'}, [new DataView(new ArrayBuffer(4))])"
+    visit.page.evaluate(f"() => {{ window.answer = {bad if fault == 'failed' else '() => {}'} }}")
+    mount(line(), width=500)
+    if fault == "failed":
+        visit.page.get_by_text("The figure cannot be drawn").wait_for()
+    if fault == "closed":
+        visit.page.evaluate("mounted[0].end()")
+    visit.page.evaluate(_ANSWER, base64.b64encode(_packed_library()).decode())
+    mount(line(), width=350)
+    drawn = "(i) => mounted[i].el.querySelectorAll('.main-svg').length > 0"
+    visit.page.wait_for_function(drawn, arg=1)
+    if fault == "failed":
+        visit.page.evaluate("mounted[0].model.set('description', 'once more')")
+    if fault != "closed":
+        visit.page.wait_for_function(drawn, arg=0)
+    assert visit.page.evaluate("window.asked") == 1

@@ -4,26 +4,44 @@
 
 const CONFIG = { displaylogo: false, displayModeBar: false, responsive: false };
 
-/** Ask Python for plotly.js, once for the page. */
-function loadPlotly(model) {
+/** Give what the page's figures share: a promise of plotly.js, and whether it is there. */
+function sharedLibrary() {
   // Each view has a module, and thus variables, of its own; only the page is common to all.
-  globalThis.workbenchPlotly ??= new Promise((resolve, reject) => {
+  if (!globalThis.workbenchPlotly) {
+    const shared = { there: false };
+    shared.ready = new Promise((resolve) => (shared.resolve = resolve));
+    globalThis.workbenchPlotly = shared;
+  }
+  return globalThis.workbenchPlotly;
+}
+
+/**
+ * Ask Python for plotly.js unless it is there. Each view asks for itself, and the first answer
+ * serves all: a view that asked before may have lost its kernel.
+ */
+function loadPlotly(model, signal) {
+  const shared = sharedLibrary();
+  if (shared.there) return shared.ready;
+  return new Promise((resolve, reject) => {
+    shared.ready.then(resolve);
     const receive = async (content, buffers) => {
       if (content.kind !== "plotly.js") return;
       model.off("msg:custom", receive);
+      if (shared.there) return;
       try {
         const packed = new Blob(buffers).stream().pipeThrough(new DecompressionStream("gzip"));
         const text = await new Response(packed).text();
         const module = new Blob([text, "\nexport default globalThis.Plotly;"], { type: "text/javascript" });
-        resolve((await import(URL.createObjectURL(module))).default);
+        shared.resolve((await import(URL.createObjectURL(module))).default);
+        shared.there = true;
       } catch (error) {
         reject(error);
       }
     };
     model.on("msg:custom", receive);
+    signal.addEventListener("abort", () => model.off("msg:custom", receive));
     model.send({ want: "plotly.js" });
   });
-  return globalThis.workbenchPlotly;
 }
 
 /** Fill in what depends on the page: size and colours. */
@@ -56,18 +74,21 @@ export default {
     const root = element("div", { class: "wb wb-figure" }, [note, place]);
     el.append(root);
     let width = 0;
+    let library = null;
 
     const draw = async () => {
       place.setAttribute("aria-label", model.get("description"));
       width = place.clientWidth;
       if (!width) return;
       try {
-        const plotly = await loadPlotly(model);
+        library ??= loadPlotly(model, stop.signal);
+        const plotly = await library;
         if (stop.signal.aborted) return;
         const { data, layout } = suited(JSON.parse(model.get("figure")), root, width);
         await plotly.react(place, data, layout, CONFIG);
         note.remove();
       } catch (error) {
+        library = null; // asked for again when the figure is drawn again
         note.textContent = `The figure cannot be drawn: ${error.message}`;
       }
     };
