@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import re
+import shutil
 import subprocess
 import sys
 from html.parser import HTMLParser
@@ -21,7 +22,7 @@ from workbench.experiments import images
 from workbench.experiments.images import write_pngs
 from workbench.experiments.items import ITEMS, Item, item_state
 from workbench.experiments.notebooks import this_interpreter
-from workbench.experiments.report import format_cell
+from workbench.experiments.report import format_cell, write_report
 from workbench.experiments.reproduce import ReproductionReport, reproduce, reproduce_items
 
 PARAMETERS = "profile = None\nseed = None\njobs = None\nout = None\nresults = None"
@@ -31,7 +32,7 @@ import pandas as pd
 import plotly.graph_objects as go
 from workbench.experiments.outputs import Outputs
 
-outputs = Outputs(out)
+outputs = Outputs(out, profile=profile, seed=seed)
 print("drawing", profile, seed, file=sys.stderr)
 figure = go.Figure(go.Scatter(x=[1, 2], y=[3, 5]), layout={"height": 300})
 outputs.figure("test:fig1", figure, caption="A line & <two> points.", alt="Two points.")
@@ -189,6 +190,48 @@ def test_a_second_run_forgets_the_failure(run, tmp_path: Path):
     assert not again.failed
     assert again.states == {"test:fig3": "done"}
     assert item_state(FIG1, report.out) == "done"
+
+
+def test_parts_of_another_run_say_so(run, tmp_path: Path):
+    """A run of one item with another profile and seed heads the page, not the older items."""
+    folder = tmp_path / "out"
+    shutil.copytree(run[0].out, folder)
+    _write_notebook(tmp_path / "other.ipynb", GOOD.replace("fig1", "fig5").replace("fig2", "fig6"))
+    other = [Item(f"test:fig{n}", "Other", "Nowhere", "other") for n in (5, 6)]
+    arguments = {"jobs": 1, "out": folder, "progress": lambda _: None}
+    reproduce_items(other, tmp_path, profile="full", seed=8, **arguments)
+    write_report(folder, [FIG1, *other])
+    page = (folder / "index.html").read_text(encoding="utf-8")
+    assert "full profile · seed 8" in page
+    sections = re.findall(r"<section .*?</section>", page, re.DOTALL)
+    assert ["quick profile, seed 7" in section for section in sections] == [True, False, False]
+
+
+def test_a_folder_of_an_earlier_version_is_read(run, tmp_path: Path):
+    """Parts without profile and outcomes without items are shown, the latter for all items."""
+    folder = tmp_path / "out"
+    shutil.copytree(run[0].out, folder)
+    for path in [*folder.glob("parts/*.json"), *folder.glob("notebooks/*.outcome.json")]:
+        record = json.loads(path.read_text())
+        kept = {k: v for k, v in record.items() if k not in ("profile", "seed", "items")}
+        path.write_text(json.dumps(kept))
+    assert "earlier run" not in write_report(folder, [FIG1, FIG3]).read_text(encoding="utf-8")
+    assert (item_state(FIG1, folder), item_state(FIG3, folder)) == ("done", "failed")
+
+
+def test_a_run_of_some_items_that_fails_leaves_the_others(run, tmp_path: Path):
+    """Its items have failed; those of the same notebook that were made before have not."""
+    folder = tmp_path / "out"
+    shutil.copytree(run[0].out, folder)
+    _write_notebook(tmp_path / "good.ipynb", BAD)
+    report = reproduce_items(
+        [FIG2], tmp_path, profile="quick", jobs=1, out=folder, seed=7, progress=lambda _: None
+    )
+    assert report.states == {"test:fig2": "failed"}
+    assert item_state(FIG1, folder) == "done"
+    write_report(folder, [FIG1, FIG2])
+    sections = re.findall(r"<section .*?</section>", report.index.read_text(), re.DOTALL)
+    assert ["ended with an error" in section for section in sections] == [False, True]
 
 
 def test_arguments_are_checked_before_anything_runs(tmp_path: Path):

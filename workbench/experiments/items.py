@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from workbench.errors import WorkbenchError
-from workbench.experiments.outputs import NOT_MADE, read_outcome, read_parts
+from workbench.experiments.outputs import NOT_MADE, read_error, read_parts
 
 TABLE_5_1 = "costa2018_table_5_1"
 FIGURES_5_12_TO_5_17 = "costa2018_figures_5_12_to_5_17"
@@ -119,11 +119,10 @@ def item_state(item: Item, out: str | Path) -> str:
     Returns
     -------
     {"done", "missing", "failed"}
-        "failed" if its notebook ended with an error, "missing" if it was not run or its
-        data were not there.
+        "failed" if its notebook, run for it, ended with an error, "missing" if it was not
+        run or its data were not there.
     """
-    outcome = read_outcome(Path(out), item.notebook)
-    if outcome is not None and outcome["error"]:
+    if read_error(Path(out), item.notebook, item.id):
         return "failed"
     made = [part for part in read_parts(Path(out)) if part["item"] == item.id]
     return "done" if any(part["kind"] != NOT_MADE for part in made) else "missing"

@@ -8,7 +8,7 @@ import re
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,8 @@ def run_notebook(
     out: Path,
     parameters: Mapping[str, Any],
     progress: Callable[[str], None],
+    *,
+    items: Sequence[str],
 ) -> str:
     """Run one notebook and keep it, executed, in the output folder.
 
@@ -38,6 +40,8 @@ def run_notebook(
         left out.
     progress : callable
         Called with each line that the notebook prints on stderr.
+    items : sequence of str
+        Ids of what it is run for; only they count as failed if it fails.
 
     Returns
     -------
@@ -63,7 +67,8 @@ def run_notebook(
             )
     except Exception as exception:  # whatever ends a notebook must not stop the others
         error = _last_lines(exception)
-    write_outcome(out, notebook.stem, seconds=time.perf_counter() - start, error=error)
+    seconds = time.perf_counter() - start
+    write_outcome(out, notebook.stem, items=items, seconds=seconds, error=error)
     return error
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -32,10 +32,17 @@ class Outputs:
     ----------
     out : path-like or None
         The output folder; None saves nothing, for a notebook that is only looked at.
+    profile : str, optional
+        Profile of the run, kept with all that it makes: a folder may hold parts of several.
+    seed : int, optional
+        Its seed, kept likewise.
     """
 
-    def __init__(self, out: str | Path | None) -> None:
+    def __init__(
+        self, out: str | Path | None, *, profile: str | None = None, seed: int | None = None
+    ) -> None:
         self.folder = None if out is None else Path(out)
+        self._made_with = {"profile": profile, "seed": seed}
 
     def figure(self, item: str, figure: go.Figure, *, caption: str, alt: str) -> None:
         """Save a figure as HTML and JSON; ``reproduce`` adds the PNG.
@@ -140,7 +147,7 @@ class Outputs:
 
     def _part(self, item: str, name: str, **content: Any) -> None:
         assert self.folder is not None
-        record = {"item": item, "name": name, **content}
+        record = {"item": item, "name": name, **self._made_with, **content}
         path = self.folder / "parts" / f"{name}.{record['kind'].replace(' ', '-')}.json"
         write_atomically(path, json.dumps(record, indent=1).encode())
 
@@ -169,9 +176,11 @@ def forget(out: Path, notebook: str, items: set[str]) -> None:
     (out / "data" / f"{notebook}.json").unlink(missing_ok=True)
 
 
-def write_outcome(out: Path, notebook: str, *, seconds: float, error: str) -> None:
-    """Record how the run of a notebook ended; an empty error means well."""
-    record = {"notebook": notebook, "seconds": seconds, "error": error}
+def write_outcome(
+    out: Path, notebook: str, *, items: Sequence[str], seconds: float, error: str
+) -> None:
+    """Record how the run of a notebook for some items ended; an empty error means well."""
+    record = {"notebook": notebook, "items": list(items), "seconds": seconds, "error": error}
     write_atomically(_outcome_path(out, notebook), json.dumps(record, indent=1).encode())
 
 
@@ -179,6 +188,19 @@ def read_outcome(out: Path, notebook: str) -> dict[str, Any] | None:
     """Read how the last run of a notebook ended; None if it was not run."""
     path = _outcome_path(out, notebook)
     return _read(path) if path.is_file() else None
+
+
+def read_error(out: Path, notebook: str, item: str) -> str:
+    """Read the error that kept a notebook from making an item.
+
+    Empty if the last run ended well, or was not for this item, which is then as it was.
+    """
+    outcome = read_outcome(out, notebook)
+    if outcome is None:
+        return ""
+    # A folder that an earlier version wrote does not say which items a run was for.
+    concerned = item in outcome.get("items", [item])
+    return str(outcome["error"]) if concerned else ""
 
 
 def _outcome_path(out: Path, notebook: str) -> Path:

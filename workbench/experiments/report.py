@@ -15,6 +15,7 @@ from workbench.experiments.outputs import (
     NOT_MADE,
     TABLE,
     VALUES,
+    read_error,
     read_outcome,
     read_parts,
     slug,
@@ -65,13 +66,14 @@ def write_report(out: Path, items: Sequence[Item]) -> Path:
 
 
 def _content(out: Path, items: Sequence[Item]) -> dict[str, Any]:
+    run = json.loads((out / "run.json").read_text(encoding="utf-8"))
     parts = read_parts(out)
-    sections = [_section(out, item, parts) for item in items]
+    sections = [_section(out, item, parts, run) for item in items]
     notebooks = dict.fromkeys(item.notebook for item in items)
     data = _data(out, list(notebooks))
     outcomes = [read_outcome(out, name) for name in notebooks]
     return {
-        "run": json.loads((out / "run.json").read_text(encoding="utf-8")),
+        "run": run,
         "data": data,
         "used": _describe_data(data),
         "sections": sections,
@@ -81,7 +83,9 @@ def _content(out: Path, items: Sequence[Item]) -> dict[str, Any]:
     }
 
 
-def _section(out: Path, item: Item, parts: Sequence[dict[str, Any]]) -> dict[str, Any]:
+def _section(
+    out: Path, item: Item, parts: Sequence[dict[str, Any]], run: dict[str, Any]
+) -> dict[str, Any]:
     mine = [part for part in parts if part["item"] == item.id]
     values = {
         label: f"{value:.2f}"
@@ -89,7 +93,6 @@ def _section(out: Path, item: Item, parts: Sequence[dict[str, Any]]) -> dict[str
         if part["kind"] == VALUES
         for label, value in part["values"].items()
     }
-    outcome = read_outcome(out, item.notebook)
     return {
         "item": item,
         "anchor": slug(item.id),
@@ -99,8 +102,17 @@ def _section(out: Path, item: Item, parts: Sequence[dict[str, Any]]) -> dict[str
         "figures": [_figure(out, part) for part in mine if part["kind"] == FIGURE],
         "tables": [_table(part) for part in mine if part["kind"] == TABLE],
         "not_made": [part["caption"] for part in mine if part["kind"] == NOT_MADE],
-        "error": outcome["error"] if outcome is not None else "",
+        "error": read_error(out, item.notebook, item.id),
+        "made_otherwise": _made_otherwise(mine, run),
     }
+
+
+def _made_otherwise(parts: Sequence[dict[str, Any]], run: dict[str, Any]) -> list[str]:
+    """Name the profiles and seeds of parts left by other runs than the one of the header."""
+    # Parts that a user's own notebook or an earlier version left may not say it.
+    made_with = {(part.get("profile"), part.get("seed")) for part in parts}
+    others = made_with - {(run["profile"], run["seed"]), (None, None)}
+    return sorted(f"{profile} profile, seed {seed}" for profile, seed in others)
 
 
 def _published_value(item_id: str) -> dict[str, Any] | None:

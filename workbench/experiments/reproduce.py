@@ -158,6 +158,7 @@ def reproduce_items(
             folder,
             {**parameters, "items": None if name in whole else mine},
             lambda line: progress(f"  {line}"),
+            items=mine,
         )
         took = duration(time.perf_counter() - began)
         if error:
