@@ -189,7 +189,9 @@ class SpatialScheme:
         if selector is None:
             selector = "uniform" if isinstance(space, PoseSpace) else "random"
         # Methods are made before the clock starts: the first of a kind imports its package.
-        projector = projectors.build(self.projector, random_state)
+        projector = None
+        if projected is None:
+            projector = projectors.build(self.projector, random_state)
         back_projector = back_projector_for(space, self.back_projector, random_state=random_state)
         optimizer = None
         if self.optimizer is not None:

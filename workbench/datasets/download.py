@@ -82,6 +82,7 @@ def _transfer(source: Source, target: Path, seconds: float) -> None:
     # Imported here because listing data sets should not wait for it.
     import pooch
     import requests
+    from urllib3.exceptions import ReadTimeoutError
 
     transfer = pooch.HTTPDownloader(
         progressbar=_Deadline(seconds),
@@ -96,7 +97,9 @@ def _transfer(source: Source, target: Path, seconds: float) -> None:
         raise DataError("the server took too long") from None
     except requests.exceptions.ChunkedEncodingError:
         raise DataError("the connection was cut") from None
-    except requests.ConnectionError:
+    except requests.ConnectionError as error:
+        if isinstance(error.args[0] if error.args else None, ReadTimeoutError):
+            raise DataError("the server took too long") from None
         raise DataError("no network or no such server") from None
     except requests.RequestException as error:
         raise DataError(f"the transfer failed ({type(error).__name__})") from None
