@@ -121,10 +121,11 @@ def wait_for_panels(page: Any, word: str) -> None:
     """Wait until the comparison shows embeddings of samples that are called so."""
     page.locator(".wb-plot").first.wait_for()
     page.wait_for_function(
-        """(word) => {
+        r"""(word) => {
           const plots = [...document.querySelectorAll(".wb-plot")];
+          const some = new RegExp(`\\b[1-9]\\d* ${word}s`);
           return !document.querySelector(".wb-busy, .wb-failed") &&
-            plots.every((plot) => plot.getAttribute("aria-label").includes(`0 ${word}s`));
+            plots.every((plot) => some.test(plot.getAttribute("aria-label")));
         }""",
         arg=word,
     )

@@ -102,12 +102,22 @@ def test_brushed_frames_are_marked_in_the_other_panel_and_known_to_the_kernel(
     assert marked[selection].all()
     assert not marked[distances > 8].any()
 
-    page.mouse.move(box["x"] + places_in_panel(np.array(first), box["width"])[7][0], box["y"])
+    # The frame that lies furthest from all others, so that the mouse can mean no other.
+    between = np.linalg.norm(places[:, None] - places, axis=2)
+    np.fill_diagonal(between, np.inf)
+    alone = int(between.min(axis=1).argmax())
+    other = page.locator(".wb-base").nth(1)
+    other.scroll_into_view_if_needed()
+    box = other.bounding_box()
+    page.mouse.move(box["x"] + places[alone][0], box["y"] + places[alone][1])
+    caption = page.locator(".wb-pose .wb-detail")
+    assert caption.inner_text().startswith(f"frame {alone} of {n}")
+
     page.locator(".wb-plot").first.focus()
     page.keyboard.press("Home")
     for _ in range(3):
         page.keyboard.press("ArrowUp")
-    assert page.locator(".wb-pose .wb-detail").inner_text().startswith(f"frame 30 of {n}")
+    assert caption.inner_text().startswith(f"frame 30 of {n}")
 
     in_kernel(page, "comparison.selection = [5, 3]")
     page.get_by_text(f"2 of {n} frames selected").wait_for()
