@@ -6,9 +6,16 @@ import os
 
 import pytest
 
-from workbench.datasets import load
+from workbench.datasets import Status, list_datasets, load
 from workbench.errors import DataError, WorkbenchError
+from workbench.experiments import profiles
 from workbench.experiments.profiles import absent_tables, fetch_small_tables, motion_clips
+
+PAGE_BLOCKS = "uci/page-blocks"
+
+
+def _found(name: str) -> Status:
+    return next(status for status in list_datasets() if status.entry.name == name)
 
 
 def test_quick_uses_short_excerpts_of_the_bundled_clips():
@@ -48,6 +55,13 @@ def test_tables_that_are_not_used_have_a_reason(monkeypatch, tmp_path):
     assert "`workbench datasets fetch uci/seeds`" in reasons["uci/seeds"]
     assert "quick profile" in reasons["uci/page-blocks"]
     assert "fetch uci/page-blocks" in absent_tables("full", names)["uci/page-blocks"]
+
+
+def test_quick_uses_cloud_when_it_is_found(monkeypatch):
+    """Of the tables that are here, only Page blocks is too large for the quick profile."""
+    monkeypatch.setattr(profiles, "_present", lambda: [_found("uci/cloud"), _found(PAGE_BLOCKS)])
+    assert set(absent_tables("quick", ["uci/cloud", PAGE_BLOCKS])) == {PAGE_BLOCKS}
+    assert absent_tables("full", ["uci/cloud", PAGE_BLOCKS]) == {}
 
 
 def test_an_unknown_profile_is_refused():
