@@ -59,9 +59,14 @@ def test_brushed_frames_are_marked_in_the_other_panel_and_known_to_the_kernel(
     open_and_run(page, lab, NOTEBOOK)
     wait_for_panels(page, "sample")
     assert "150 samples" in page.locator(".wb-plot").first.get_attribute("aria-label")
+    for name in ("Projector A", "optimized A", "Projector B", "optimized B"):
+        assert page.get_by_label(name, exact=True).is_visible()
+    status = page.locator(".wb-status").element_handle()
 
     choose_data(page, "cmu/01_01-jump")
     wait_for_panels(page, "frame")
+    # Kept while its text changed, or a screen reader would not have spoken it.
+    assert status.evaluate("(line) => line.isConnected")
     page.locator(".wb-quality td.best").nth(5).wait_for()
     page.locator(".js-plotly-plot .scatterlayer .trace").nth(1).wait_for()
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from workbench.widgets import PoseView, SampleDetails
+from workbench.widgets import PoseView, SampleDetails, StatusLine
 
 pytestmark = pytest.mark.browser
 
@@ -138,3 +138,19 @@ def test_details_show_the_values_and_class_of_the_hovered_row(mount: Callable) -
     assert page.locator(".wb-number").all_inner_texts() == ["2", "30"]
     lefts = page.evaluate("[...document.querySelectorAll('.wb-range i')].map((i) => i.style.left)")
     assert lefts == ["50%", "100%"]
+
+
+def test_the_pose_is_named_and_takes_keys(mount: Callable) -> None:
+    """A screen reader gets the frame, and lets the arrow keys through."""
+    page = mount(waving_body(), width=300)
+    hover(page, "pose", 3)
+    assert page.get_by_role("application", name="Stick figure, frame 3 of 30").count() == 1
+
+
+def test_the_status_is_one_element_whose_text_changes(mount: Callable) -> None:
+    """A screen reader speaks the change of an element that stays."""
+    page = mount(StatusLine(value="loading"))
+    page.evaluate("window.first = document.querySelector('[role=status]')")
+    page.evaluate("mounted[0].model.set('value', 'a < b')")
+    page.get_by_role("status").get_by_text("a < b", exact=True).wait_for()
+    assert page.evaluate("document.querySelector('[role=status]') === window.first")

@@ -188,6 +188,16 @@ def test_the_keyboard_moves_and_selects(mount: Callable) -> None:
     assert page.locator(".wb-hover").inner_text() == "sample 24"
 
 
+@pytest.mark.parametrize("key", ["Home", "End", "ArrowRight"])
+def test_without_samples_no_key_names_one(mount: Callable, key: str) -> None:
+    """Before there are data, nothing is hovered or spoken."""
+    page = mount(ScatterPanels(panels=[{"title": "A", "state": "busy"}], points=[]))
+    page.locator(".wb-plot").first.focus()
+    page.keyboard.press(key)
+    assert page.locator(".wb-live").inner_text() == ""
+    assert page.locator(".wb-hover").inner_text() == ""
+
+
 def test_the_legend_selects_a_class(mount: Callable) -> None:
     """A click on a class selects its samples."""
     classes = (ROWS_UP[:, 0] > 0.6).astype(int)

@@ -63,6 +63,13 @@ def register_slow(seconds: float) -> None:
     register_projector("slow", Slow)
 
 
+def test_each_control_is_named_for_its_panel(iris: ProjectionComparison) -> None:
+    """A screen reader, which reads one control at a time, tells the panels apart."""
+    controls = iris.controls
+    assert [c.description for c in controls.projector] == [f"Projector {x}" for x in "ABCD"]
+    assert [c.description for c in controls.optimized] == [f"optimized {x}" for x in "ABCD"]
+
+
 def test_panels_table_and_figure_show_the_same_results(iris: ProjectionComparison) -> None:
     """The browser gets the embeddings, classes and control points of the results."""
     scatter, results = iris.view.scatter, iris.results

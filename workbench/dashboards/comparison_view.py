@@ -13,7 +13,7 @@ import numpy as np
 from workbench.dashboards.controls import Controls
 from workbench.dashboards.quality_view import QualityView
 from workbench.dashboards.session import PanelResult, Summary
-from workbench.widgets import PoseView, SampleDetails, ScatterPanels, joint_sides
+from workbench.widgets import PoseView, SampleDetails, ScatterPanels, StatusLine, joint_sides
 
 _channels = itertools.count(1)
 _ALERT = (
@@ -77,7 +77,7 @@ class ComparisonView:
             tooltip="Compute what failed or was cancelled, or else all panels anew",
         )
         self._bar = widgets.FloatProgress(min=0, max=1, layout=widgets.Layout(width="200px"))
-        self._doing = widgets.HTML()
+        self._doing = StatusLine(layout=widgets.Layout(flex="1 1 200px", min_width="0"))
         self._message = widgets.HTML()
         self.root = self._laid_out(controls)
 
@@ -125,11 +125,11 @@ class ComparisonView:
     def show_progress(self, text: str, done: float) -> None:
         """Say what is being computed, and how much of everything is done (0 to 1)."""
         self._bar.value = done
-        self._doing.value = f'<span role="status">{escape(text)} …</span>'
+        self._doing.value = f"{text} …" if text else ""
 
     def show_busy(self, busy: bool) -> None:
         """Show or hide the progress; hidden, it keeps its place so that nothing jumps."""
-        for part in (self._bar, self._doing, self.cancel):
+        for part in (self._bar, self.cancel):
             part.layout.visibility = "visible" if busy else "hidden"
         self.again.disabled = busy
         if not busy:

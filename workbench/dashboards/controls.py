@@ -95,18 +95,18 @@ class Controls:
         self.projector = [
             widgets.Dropdown(
                 options=projectors,
-                description=letter,
+                description=f"Projector {letter}",
                 style=_FITTING,
-                layout=widgets.Layout(width="120px"),
+                layout=widgets.Layout(width="185px"),
             )
             for letter in LETTERS
         ]
         self.optimized = [
             widgets.Checkbox(
-                description="optimized",
+                description=f"optimized {letter}",
                 indent=False,
                 tooltip=f"Optimize the embedding of panel {letter}",
-                layout=widgets.Layout(width="90px"),
+                layout=widgets.Layout(width="105px"),
             )
             for letter in LETTERS
         ]

@@ -6,5 +6,13 @@ from workbench.widgets.details import SampleDetails
 from workbench.widgets.figure import FigureView
 from workbench.widgets.pose import PoseView, joint_sides
 from workbench.widgets.scatter import ScatterPanels
+from workbench.widgets.status import StatusLine
 
-__all__ = ["FigureView", "PoseView", "SampleDetails", "ScatterPanels", "joint_sides"]
+__all__ = [
+    "FigureView",
+    "PoseView",
+    "SampleDetails",
+    "ScatterPanels",
+    "StatusLine",
+    "joint_sides",
+]

@@ -13,7 +13,11 @@ class Pose {
     this.turn = FIRST_TURN;
     this.tilt = TILT;
     this.root = root;
-    this.canvas = element("canvas", { tabindex: "0", role: "img" });
+    this.canvas = element("canvas", {
+      tabindex: "0",
+      role: "application", // lets the arrow keys through where a picture would not
+      "aria-label": `Stick figure. ${POSE_HINT}`,
+    });
     this.caption = element("div", { class: "wb-detail" });
     this.sides = element("div", { class: "wb-sides" });
     root.append(this.caption, this.canvas, this.sides, element("p", { class: "wb-hint", text: POSE_HINT }));

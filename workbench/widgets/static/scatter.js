@@ -290,15 +290,14 @@ class Scatter {
   key(event) {
     const { n } = this.state;
     const steps = { ArrowRight: 1, ArrowLeft: -1, ArrowUp: 10, ArrowDown: -10 };
+    const ends = { Home: 0, End: n - 1 };
     if (event.key === "Escape") {
       if (this.drag) this.abandon();
       else this.select([]);
     } else if (event.key === "Enter" || event.key === " ") this.toggle(this.hovered);
-    else if (event.key === "Home") this.hover(0, true);
-    else if (event.key === "End") this.hover(n - 1, true);
-    else if (event.key in steps && n > 0) {
-      const next = this.hovered < 0 ? 0 : this.hovered + steps[event.key];
-      this.hover(Math.max(0, Math.min(n - 1, next)), true);
+    else if (event.key in steps || event.key in ends) {
+      const next = ends[event.key] ?? (this.hovered < 0 ? 0 : this.hovered + steps[event.key]);
+      if (n > 0) this.hover(Math.max(0, Math.min(n - 1, next)), true);
     } else return;
     event.preventDefault();
     // JupyterLab would take Enter, Escape and the arrows as commands to its cells.
