@@ -232,10 +232,8 @@ class Session:
             report(f"optimizing, sweep {sweep}", 0.5 + 0.4 * min(1.0, sweep / 200))
 
         report("back-projecting", 0.5)
-        # Not by its name, which only the kernel knows if its user registered it.
         scheme = SpatialScheme(
-            projectors.create(run.panel.projector),
-            optimizer="alg12" if run.panel.optimized else None,
+            run.panel.projector, optimizer="alg12" if run.panel.optimized else None
         )
         with _said_by_warnings() as said:
             result = scheme.run(
