@@ -109,7 +109,7 @@ def test_a_failed_write_leaves_the_old_file(compacted, tmp_path, monkeypatch):
     def refuse(*_):
         raise OSError("no space left")
 
-    monkeypatch.setattr("workbench.compact.os.replace", refuse)
+    monkeypatch.setattr("workbench.files.os.replace", refuse)
     with pytest.raises(OSError, match="no space left"):
         write_compact(compacted[1], path)
     assert path.read_bytes() == b"old"

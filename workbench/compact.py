@@ -27,7 +27,6 @@ from __future__ import annotations
 
 import io
 import json
-import os
 import zipfile
 import zlib
 from dataclasses import dataclass
@@ -39,6 +38,7 @@ from numpy.typing import NDArray
 
 from workbench.backprojection.poses import SpatialKeyframes
 from workbench.errors import DataError, WorkbenchError
+from workbench.files import write_atomically
 from workbench.interpolation import Interpolator, interpolators
 from workbench.mocap.motion import Motion
 from workbench.mocap.rotations import rotation_vectors, rotations_from_vectors
@@ -211,13 +211,7 @@ def write_compact(compact: CompactMotion, path: str | Path) -> int:
         arrays["embedding"] = compact.embedding.astype(np.float32)
     buffer = io.BytesIO()
     np.savez_compressed(buffer, allow_pickle=False, **arrays)
-    path = Path(path)
-    partial = path.with_name(f".{path.name}.{os.getpid()}.part")
-    try:
-        partial.write_bytes(buffer.getvalue())
-        os.replace(partial, path)
-    finally:
-        partial.unlink(missing_ok=True)
+    write_atomically(Path(path), buffer.getvalue())
     return buffer.getbuffer().nbytes
 
 

@@ -10,8 +10,8 @@ import pandas as pd
 import pytest
 
 from workbench.errors import DataError
-from workbench.experiments.files import write_atomically
 from workbench.experiments.store import ResultStore
+from workbench.files import write_atomically
 
 KEY = "a" * 64
 ROW = {"error": 0.1 + 0.2, "dataset": "uci/iris", "optimizer": None, "n_samples": 150}

@@ -149,7 +149,7 @@ def test_failed_write_leaves_nothing(waving, tmp_path, monkeypatch):
     def fail(*_):
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr(Path, "replace", fail)
+    monkeypatch.setattr("workbench.files.os.replace", fail)
     with pytest.raises(DataError, match="No space left"):
         write_bvh(waving, path)
     assert path.read_text() == "kept"

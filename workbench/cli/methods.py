@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -53,7 +54,7 @@ def project(
         "seconds": result.timings.total,
     }
     if writer is not None:
-        writer(_embedding_table(result), out)
+        writer(_embedding_table(result))
     options.report(values, json)
 
 
@@ -172,18 +173,22 @@ def _load_motion(clip: str) -> PoseSpace:
     return space
 
 
-def _table_writer(out: Path | None) -> Any:
+def _table_writer(out: Path | None) -> Callable[[Any], None] | None:
     """Choose how to write a table, before anything is computed."""
     if out is None:
         return None
-    writers = {
-        ".csv": lambda table, path: table.to_csv(path, index=False),
-        ".parquet": lambda table, path: table.to_parquet(path, index=False),
+    contents = {
+        ".csv": lambda table: table.to_csv(index=False).encode(),
+        ".parquet": lambda table: table.to_parquet(index=False),
     }
-    if out.suffix.lower() not in writers:
+    content = contents.get(out.suffix.lower())
+    if content is None:
         raise WorkbenchError(f"--out: got {str(out)!r}, want a name ending in .csv or .parquet")
     _check_folder(out)
-    return writers[out.suffix.lower()]
+
+    from workbench.files import write_atomically
+
+    return lambda table: write_atomically(out, content(table))
 
 
 def _check_folder(out: Path | None) -> None:

@@ -13,7 +13,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from workbench.experiments.files import write_atomically
+from workbench.files import write_atomically
 
 if TYPE_CHECKING:
     import pandas as pd

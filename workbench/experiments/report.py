@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from workbench.experiments.files import write_atomically
 from workbench.experiments.items import Item, item_state
 from workbench.experiments.outputs import (
     FIGURE,
@@ -23,6 +22,7 @@ from workbench.experiments.outputs import (
 from workbench.experiments.progress import duration
 from workbench.experiments.published import published, published_ids
 from workbench.experiments.versions import versions
+from workbench.files import write_atomically
 
 _TEMPLATES = Path(__file__).with_name("templates")
 

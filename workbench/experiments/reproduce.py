@@ -10,7 +10,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from workbench.errors import WorkbenchError
-from workbench.experiments.files import write_atomically
 from workbench.experiments.images import write_pngs
 from workbench.experiments.items import EXTRAS, ITEMS, Item, item_state, select_items
 from workbench.experiments.notebooks import run_notebook
@@ -19,6 +18,7 @@ from workbench.experiments.profiles import fetch_small_tables
 from workbench.experiments.progress import duration
 from workbench.experiments.report import write_report
 from workbench.experiments.uci_projections import UCI_FIGURES
+from workbench.files import write_atomically
 from workbench.resources import bundled
 
 PROFILES = ("quick", "full")

@@ -15,7 +15,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from workbench.errors import DataError
-from workbench.experiments.files import write_atomically
+from workbench.files import write_atomically
 
 Row = dict[str, Any]
 Arrays = dict[str, NDArray[Any]]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import contextlib
-import uuid
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from workbench.errors import DataError, WorkbenchError
+from workbench.files import write_atomically
 from workbench.mocap.bvh import PositionRule, check_position_rule
 from workbench.mocap.channels import motion_to_euler, rotation_columns
 from workbench.mocap.motion import Motion
@@ -165,17 +164,11 @@ def _decimal(value: float) -> str:
 
 
 def _write_whole(path: Path, text: str) -> None:
-    """Write a file beside its place and move it there, so that none is ever half written."""
     if not path.name:
         raise DataError(f"{path}: is a folder, want the name of a file")
-    temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}.tmp")
+    if not path.parent.is_dir():
+        raise DataError(f"{path}: cannot be written (there is no folder {path.parent})")
     try:
-        with temporary.open("x", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-        temporary.replace(path)
+        write_atomically(path, text.encode())
     except OSError as error:
         raise DataError(f"{path}: cannot be written ({error.strerror})") from None
-    finally:
-        # There is nothing to remove after success, nor where no file could be made.
-        with contextlib.suppress(OSError):
-            temporary.unlink()
