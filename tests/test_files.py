@@ -44,7 +44,7 @@ def test_a_full_disk_keeps_the_old_file(small_disk):
 
 def test_motions_on_a_full_disk_are_refused_in_one_line(small_disk, waving):
     """A BVH file that does not fit leaves nothing behind; a compact one neither."""
-    (small_disk / "filler").write_bytes(b"x" * 12_000)
+    (small_disk / "filler").write_bytes(b"x" * 16_000)
     with pytest.raises(DataError, match=r"clip\.bvh: cannot be written \(No space left"):
         write_bvh(waving, small_disk / "clip.bvh")
     result = TemporalScheme().run(PoseSpace(waving), count=40)
