@@ -198,8 +198,7 @@ def read_error(out: Path, notebook: str, item: str) -> str:
     outcome = read_outcome(out, notebook)
     if outcome is None:
         return ""
-    # A folder that an earlier version wrote does not say which items a run was for.
-    concerned = item in outcome.get("items", [item])
+    concerned = item in outcome["items"]
     return str(outcome["error"]) if concerned else ""
 
 

@@ -109,7 +109,7 @@ def _section(
 
 def _made_otherwise(parts: Sequence[dict[str, Any]], run: dict[str, Any]) -> list[str]:
     """Name the profiles and seeds of parts left by other runs than the one of the header."""
-    # Parts that a user's own notebook or an earlier version left may not say it.
+    # Parts that a user's own notebook left may not say it.
     made_with = {(part.get("profile"), part.get("seed")) for part in parts}
     others = made_with - {(run["profile"], run["seed"]), (None, None)}
     return sorted(f"{profile} profile, seed {seed}" for profile, seed in others)
