@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 REPORT := reproduction
 
 .DEFAULT_GOAL := help
-.PHONY: help setup reproduce test check wheel lab format screenshots clean
+.PHONY: help setup reproduce test bench check wheel lab format screenshots clean
 
 help: ## Say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 20
@@ -24,6 +24,9 @@ reproduce: $(VENV)/installed ## Regenerate the figures and tables on bundled dat
 
 test: $(VENV)/installed ## Run all tests
 	$(BIN)/python -m pytest
+
+bench: $(VENV)/installed ## Measure the hot paths beside their baselines
+	$(BIN)/python -m tests.benchmarks
 
 check: $(VENV)/installed ## Check style, types, imports and notebooks
 	$(BIN)/ruff check .

@@ -8,7 +8,9 @@ the dashboards run these two classes and nothing else.
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from inspect import signature
 from typing import Any
 
 import numpy as np
@@ -19,7 +21,8 @@ from workbench.errors import WorkbenchError
 from workbench.interpolation import Interpolator, interpolators
 from workbench.optimization import optimizers
 from workbench.optimization.objective import Callback, Objective
-from workbench.projection import project, projectors
+from workbench.projection import fit_projection, projectors
+from workbench.projection.two_step import project_in_two_steps
 from workbench.results import Result, SpatialResult, Timings
 from workbench.selection import Selector, selectors
 from workbench.spaces import PoseSpace, Space, check_space
@@ -32,6 +35,7 @@ def choose_control_points(
     *,
     count: int | None = None,
     ratio: float | None = None,
+    fixed: Iterable[int] = (),
     random_state: int | None = None,
 ) -> NDArray[np.intp]:
     """Select control points by name or with a selector object.
@@ -42,8 +46,11 @@ def choose_control_points(
         The samples.
     selector : str or selector
         A registered name, or an object with ``select(space, count)``.
-    count, ratio : int or float, exactly one
-        How many, or which share: max(3, floor(ratio · n_samples)).
+    count, ratio : int or float, at most one
+        How many, or which share: max(3, floor(ratio · n_samples)). Neither is for a selector
+        that has a rule of its own for the number, such as ``saliency``.
+    fixed : iterable of int
+        Samples that must be among them.
     random_state : int, optional
         Seed for a selector that takes one.
 
@@ -55,12 +62,19 @@ def choose_control_points(
     Raises
     ------
     WorkbenchError
-        If the name, the count or the ratio is not valid.
+        If the name, the count, the ratio or a fixed sample is not valid.
     """
     check_space(space)
+    built = selectors.build(selector, random_state)
+    fixed = list(fixed)
+    # A user's own selector may know nothing of fixed samples; it is asked only if there are any.
+    options = {"fixed": fixed} if fixed else {}
+    if fixed and "fixed" not in signature(built.select).parameters:
+        raise WorkbenchError(f"fixed: selector {selector!r} cannot keep samples (no `fixed`)")
+    if count is None and ratio is None and getattr(built, "chooses_count", False):
+        return control_point_indices(built.select(space, None, **options), len(space), at_least=2)
     wanted = control_point_count(len(space), count=count, ratio=ratio)
-    chosen = selectors.build(selector, random_state).select(space, wanted)
-    indices = control_point_indices(chosen, len(space))
+    indices = control_point_indices(built.select(space, wanted, **options), len(space))
     if len(indices) != wanted:
         raise WorkbenchError(f"selector {selector!r}: gave {len(indices)} samples, want {wanted}")
     return indices
@@ -87,6 +101,7 @@ class TemporalScheme:
         *,
         count: int | None = None,
         ratio: float | None = None,
+        fixed: Iterable[int] = (),
         random_state: int | None = None,
     ) -> Result:
         """Select keyframes and rebuild the frames between them.
@@ -96,7 +111,9 @@ class TemporalScheme:
         space : PoseSpace
             The motion; tables have no time.
         count, ratio : int or float, exactly one
-            How many keyframes, or which share.
+            How many keyframes, or which share; neither, for a selector with its own rule.
+        fixed : iterable of int
+            Frames that must be keyframes.
         random_state : int, optional
             Seed of the selector, where it takes one.
 
@@ -117,7 +134,12 @@ class TemporalScheme:
         timings = Timings()
         with timings.step("select"):
             keys = choose_control_points(
-                space, self.selector, count=count, ratio=ratio, random_state=random_state
+                space,
+                self.selector,
+                count=count,
+                ratio=ratio,
+                fixed=fixed,
+                random_state=random_state,
             )
         interpolator = interpolators.build(self.interpolator, random_state)
         with timings.step("interpolate"):
@@ -142,12 +164,19 @@ class SpatialScheme:
         for tables.
     optimizer : str, optimizer or None
         A registered name or an object with ``optimize``; None leaves the projection as it is.
+    two_step : str, control-point projector or None
+        A registered name such as ``"rbfp"``: the projector then places the control points
+        only, and this method the rest around them. None projects all samples in one step.
+    dimensions : int or None
+        Dimensions of the embedding, 2 or 3; None for the projector's own, usually 2.
     """
 
     projector: Any = "tsne"
     selector: str | Selector | None = None
     back_projector: str | BackProjector | None = None
     optimizer: Any = None
+    two_step: Any = None
+    dimensions: int | None = None
 
     def run(
         self,
@@ -155,6 +184,7 @@ class SpatialScheme:
         *,
         count: int | None = None,
         ratio: float | None = None,
+        fixed: Iterable[int] = (),
         random_state: int | None = None,
         projected: NDArray[np.float64] | None = None,
         callback: Callback | None = None,
@@ -166,7 +196,9 @@ class SpatialScheme:
         space : Space
             The samples.
         count, ratio : int or float, exactly one
-            How many control points, or which share.
+            How many control points, or which share; neither, for a selector with its own rule.
+        fixed : iterable of int
+            Samples that must be control points.
         random_state : int, optional
             Seed of the selector and the projector, where they take one.
         projected : ndarray of shape (n_samples, n_dimensions), optional
@@ -200,13 +232,32 @@ class SpatialScheme:
         timings = Timings()
         with timings.step("select"):
             control = choose_control_points(
-                space, selector, count=count, ratio=ratio, random_state=random_state
+                space,
+                selector,
+                count=count,
+                ratio=ratio,
+                fixed=fixed,
+                random_state=random_state,
             )
-        if projected is None:
-            with timings.step("project"):
-                projected = project(space, projector)
-        else:
+        projection = None
+        if projected is not None:
             projected = as_embedding(projected, "projected", len(space))
+        elif self.two_step is not None:
+            with timings.step("project"):
+                projected = project_in_two_steps(
+                    space,
+                    projector,
+                    self.two_step,
+                    control,
+                    dimensions=self.dimensions,
+                    random_state=random_state,
+                )
+        else:
+            with timings.step("project"):
+                projection = fit_projection(space, projector, dimensions=self.dimensions)
+            projected = projection.embedding
+        if hasattr(back_projector, "use_projection"):
+            back_projector.use_projection(projection)
         free = np.setdiff1d(np.arange(len(space)), control)
         with timings.step("fit"):
             back_projector.fit(projected[control], space.samples[control])

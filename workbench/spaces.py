@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -17,7 +18,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.mocap.motion import Motion
-from workbench.validation import MIN_SAMPLES, finite, require_memory
+from workbench.validation import (
+    MIN_SAMPLES,
+    control_point_indices,
+    finite,
+    require_memory,
+)
 
 
 class Space(ABC):
@@ -65,6 +71,36 @@ class Space(ABC):
         Returns
         -------
         ndarray of shape (n_pairs,)
+        """
+
+    @abstractmethod
+    def cross_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+        """Measure the distances between samples of two sets, new ones too.
+
+        Parameters
+        ----------
+        first : array-like of shape (n_first, ...)
+            Samples like those of the space.
+        second : array-like of shape (n_second, ...)
+            As many or others.
+
+        Returns
+        -------
+        ndarray of shape (n_first, n_second)
+        """
+
+    @abstractmethod
+    def subset(self, indices: ArrayLike) -> Space:
+        """Make a space of some of the samples, under the same distance.
+
+        Parameters
+        ----------
+        indices : array-like of shape (n_subset,)
+            Sorted, each once, at least 3.
+
+        Returns
+        -------
+        Space
         """
 
     @abstractmethod
@@ -219,6 +255,23 @@ class VectorSpace(Space):
         """Measure the Euclidean distances between pairs of rows."""
         return np.linalg.norm(self.samples[_index(first)] - self.samples[_index(second)], axis=1)
 
+    def cross_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+        """Measure the Euclidean distances between rows of two tables."""
+        from scipy.spatial.distance import cdist
+
+        return cdist(np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64))
+
+    def subset(self, indices: ArrayLike) -> VectorSpace:
+        """Make a table of some of the rows; standardised columns stay as they are."""
+        rows = control_point_indices(indices, len(self), at_least=MIN_SAMPLES, name="indices")
+        return VectorSpace(
+            self.samples[rows],
+            columns=self.columns,
+            labels=None if self.labels is None else self.labels[rows],
+            name=self.name,
+            notes=self.notes,
+        )
+
     def errors(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
         """Measure the Euclidean distances between rows and their reconstructions."""
         originals, rebuilt = self.matched(indices, reconstructions)
@@ -307,6 +360,27 @@ class PoseSpace(Space):
 
         return rotation_distance_pairs(
             self.samples[_index(first)], self.samples[_index(second)], self.weights
+        )
+
+    def cross_distances(self, first: ArrayLike, second: ArrayLike) -> NDArray[np.float64]:
+        """Measure D_q between poses of two sequences: (n_first, n_second)."""
+        from workbench.mocap.distances import rotation_distance_table
+
+        return rotation_distance_table(
+            np.asarray(first, dtype=np.float64), np.asarray(second, dtype=np.float64), self.weights
+        )
+
+    def subset(self, indices: ArrayLike) -> PoseSpace:
+        """Make a motion of some of the frames, one after the other as if nothing was between."""
+        frames = control_point_indices(indices, len(self), at_least=MIN_SAMPLES, name="indices")
+        motion = self.motion
+        return PoseSpace(
+            replace(
+                motion,
+                rotations=motion.rotations[frames],
+                root_translation=motion.root_translation[frames],
+                joint_translations={j: t[frames] for j, t in motion.joint_translations.items()},
+            )
         )
 
     def errors(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:

@@ -51,3 +51,41 @@ def test_a_selector_that_gives_too_few_is_refused(table):
 
     with pytest.raises(WorkbenchError, match="gave 2 samples, want 9"):
         choose_control_points(table, Lazy(), count=9)
+
+
+@pytest.mark.parametrize("name", ["uniform", "random"])
+def test_fixed_samples_stay(table, name):
+    """Samples that the user fixes are selected, and the number is what was asked for."""
+    found = choose_control_points(table, name, count=9, fixed=[33, 5], random_state=0)
+    assert {5, 33} <= set(found.tolist())
+    assert len(found) == 9
+
+
+def test_uniform_selection_spreads_around_fixed_frames(waving):
+    """With a fixed frame off the grid, no interval is longer than it must be."""
+    keys = choose_control_points(PoseSpace(waving), "uniform", count=7, fixed=[3])
+    assert {0, 3, 59} <= set(keys.tolist())
+    assert np.diff(keys).max() == 12  # 56 frames in five parts
+
+
+@pytest.mark.parametrize(
+    ("fixed", "message"),
+    [([80], "fixed: got 80"), ([4, 4], "fixed: .*repeated"), (range(10), "at most count=9")],
+    ids=["outside", "twice", "too many"],
+)
+def test_bad_fixed_samples_are_refused(table, fixed, message):
+    """The message names the argument."""
+    with pytest.raises(WorkbenchError, match=message):
+        choose_control_points(table, "uniform", count=9, fixed=fixed)
+
+
+def test_a_selector_that_knows_no_fixed_samples_says_so(table):
+    """A user's own selector with ``select(space, count)`` alone serves until some are fixed."""
+
+    class Start:
+        def select(self, space, count):
+            return np.arange(count)
+
+    assert len(choose_control_points(table, Start(), count=4)) == 4
+    with pytest.raises(WorkbenchError, match="cannot keep samples"):
+        choose_control_points(table, Start(), count=4, fixed=[1])

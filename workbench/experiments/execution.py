@@ -115,9 +115,12 @@ def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
     with warnings.catch_warnings(record=True) as caught:
         if isinstance(run.scheme, SpatialScheme):
             seconds["distances"] = shared.distance_seconds()
-            projection = shared.projection(run.scheme.projector, run.seed)
-            seconds["project"] = projection.seconds
-            result = run.scheme.run(shared.space, projected=projection.embedding, **amount)
+            if _starts_from_shared_projection(run.scheme):
+                projection = shared.projection(run.scheme.projector, run.seed)
+                seconds["project"] = projection.seconds
+                result = run.scheme.run(shared.space, projected=projection.embedding, **amount)
+            else:
+                result = run.scheme.run(shared.space, **amount)
         else:
             result = run.scheme.run(shared.space, **amount)
     said = [*(projection.warnings if projection else ()), *_messages(caught)]
@@ -132,13 +135,23 @@ def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
         "warnings": "; ".join(said),
     }
     arrays: Arrays = {"errors": result.errors, "control_points": result.control_points}
-    if isinstance(result, SpatialResult) and projection is not None:
-        row.update(_spatial_values(result, projection.quality))
+    if isinstance(result, SpatialResult):
+        before = result.projected_quality if projection is None else projection.quality
+        row.update(_spatial_values(result, before))
         arrays.update(projected=result.projected, embedding=result.embedding)
     row.update({f"seconds_{step.replace('-', '_')}": value for step, value in seconds.items()})
     row["seconds_total"] = sum(seconds.values())
     row.update({f"version_{name}": value for name, value in versions().items()})
     return row, arrays
+
+
+def _starts_from_shared_projection(scheme: SpatialScheme) -> bool:
+    """Tell whether the projection is the same for all runs with this projector and seed."""
+    return (
+        scheme.two_step is None
+        and scheme.dimensions is None
+        and (scheme.back_projector != "inverse")
+    )
 
 
 def _messages(caught: list[warnings.WarningMessage]) -> tuple[str, ...]:

@@ -97,7 +97,9 @@ def scheme_name(scheme: Scheme) -> str:
     if isinstance(scheme, TemporalScheme):
         return f"{scheme.interpolator}, {scheme.selector}"
     parts = [f"{scheme.projector} + {scheme.optimizer}" if scheme.optimizer else scheme.projector]
-    parts += [part for part in (scheme.selector, scheme.back_projector) if part]
+    parts += [part for part in (scheme.two_step, scheme.selector, scheme.back_projector) if part]
+    if scheme.dimensions is not None:
+        parts.append(f"{scheme.dimensions}-D")
     return ", ".join(str(part) for part in parts)
 
 

@@ -43,6 +43,13 @@ def _rotation_distance_matrix(poses, weights, result):  # type: ignore[no-untype
 
 
 @compiled_parallel
+def _rotation_distance_table(a, b, weights, result):  # type: ignore[no-untyped-def]  # compiled
+    for i in prange(a.shape[0]):
+        for j in range(b.shape[0]):
+            result[i, j] = _rotation_distance(a[i], b[j], weights)
+
+
+@compiled_parallel
 def _rotation_distance_pairs(a, b, weights, result):  # type: ignore[no-untyped-def]  # compiled
     for i in prange(a.shape[0]):
         result[i] = _rotation_distance(a[i], b[i], weights)
@@ -103,6 +110,36 @@ def rotation_distance_pairs(
     a, b, weights = _fitting_pairs(a, b, weights, (3, 3))
     result = np.empty(len(a))
     _rotation_distance_pairs(_rows(a), _rows(b), weights, result)
+    return result
+
+
+def rotation_distance_table(
+    a: NDArray[np.float64], b: NDArray[np.float64], weights: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Compute D_q between each pose of one sequence and each of another (Costa 2018, Eq. 3.2).
+
+    Parameters
+    ----------
+    a : ndarray of shape (n_first, n_joints, 3, 3)
+        Poses.
+    b : ndarray of shape (n_second, n_joints, 3, 3)
+        Poses.
+    weights : ndarray of shape (n_joints,)
+        Joint weights.
+
+    Returns
+    -------
+    ndarray of shape (n_first, n_second)
+
+    Raises
+    ------
+    WorkbenchError
+        If the shapes are others or do not fit each other.
+    """
+    first, weights = _fitting("a", a, weights, (3, 3))
+    second, weights = _fitting("b", b, weights, (3, 3))
+    result = np.empty((len(first), len(second)))
+    _rotation_distance_table(_rows(first), _rows(second), weights, result)
     return result
 
 

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.errors import DataError, WorkbenchError
+from workbench.projection.fitted import Projection
 from workbench.registry import Registry
 from workbench.spaces import Space, VectorSpace, check_space
 from workbench.validation import as_embedding
@@ -30,9 +31,16 @@ projectors = Registry(
 )
 register_projector = projectors.register
 
+control_point_projectors = Registry("control-point projector", {}, needs=("fit", "transform"))
+register_control_point_projector = control_point_projectors.register
+
 
 def project(
-    space: Space, projector: Any, *, random_state: int | None = None
+    space: Space,
+    projector: Any,
+    *,
+    dimensions: int | None = None,
+    random_state: int | None = None,
 ) -> NDArray[np.float64]:
     """Project the samples of a space and scale the result to the unit square.
 
@@ -42,6 +50,8 @@ def project(
         The samples.
     projector : str or scikit-learn transformer
         A registered name or an object with ``fit_transform``; it is copied, not changed.
+    dimensions : int, optional
+        2 or 3; by default the projector's own number.
     random_state : int, optional
         Seed for a projector that has that parameter and leaves it open.
 
@@ -61,17 +71,57 @@ def project(
     >>> project(VectorSpace([[0.0, 0.0], [4.0, 0.0], [2.0, 1.0]]), "pca").max()
     np.float64(1.0)
     """
+    return fit_projection(
+        space, projector, dimensions=dimensions, random_state=random_state
+    ).embedding
+
+
+def fit_projection(
+    space: Space,
+    projector: Any,
+    *,
+    dimensions: int | None = None,
+    random_state: int | None = None,
+) -> Projection:
+    """Project the samples of a space, keeping the method that did it.
+
+    As :func:`project`, for those who go on with the fitted method: a projector's own inverse
+    needs it.
+
+    Parameters
+    ----------
+    space, projector, dimensions, random_state
+        As for :func:`project`.
+
+    Returns
+    -------
+    Projection
+
+    Raises
+    ------
+    WorkbenchError
+        As :func:`project`.
+    """
     check_space(space)
     estimator = projectors.build(projector, random_state)
+    name = projector if isinstance(projector, str) else type(projector).__name__
+    if dimensions is not None:
+        if dimensions not in (2, 3):
+            raise WorkbenchError(f"dimensions: got {dimensions!r}, want 2 or 3")
+        if "n_components" not in estimator.get_params():
+            raise WorkbenchError(f"dimensions: projector {name!r} has no parameter n_components")
+        estimator.set_params(n_components=dimensions)
     if not np.ptp(space.features, axis=0).any():
         raise DataError(f"{space.name or 'data'}: all samples are equal, want some that differ")
     samples = space.features
     if hasattr(estimator, "metric") and not isinstance(space, VectorSpace):
         estimator.set_params(metric="precomputed")
         samples = space.distances
-    name = projector if isinstance(projector, str) else type(projector).__name__
     embedding = as_embedding(estimator.fit_transform(samples), f"embedding by {name!r}", len(space))
-    return scale_to_unit_square(embedding)
+    scaled = scale_to_unit_square(embedding)
+    return Projection(
+        scaled, estimator, embedding.min(axis=0), float(np.ptp(embedding, axis=0).max())
+    )
 
 
 def scale_to_unit_square(embedding: NDArray[np.float64]) -> NDArray[np.float64]:

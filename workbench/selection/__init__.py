@@ -1,26 +1,15 @@
 """Selectors: which samples become control points or keyframes.
 
-A selector has one method, ``select(space, count)``, which returns sorted indices.
+``select(space, count)`` returns sorted indices; see
+:class:`~workbench.selection.base.Selector`.
 """
 
 from __future__ import annotations
 
-from typing import Protocol
-
-import numpy as np
-from numpy.typing import NDArray
-
 from workbench.registry import Registry
-from workbench.spaces import Space
+from workbench.selection.base import Selector
 
-
-class Selector(Protocol):
-    """What a selector offers."""
-
-    def select(self, space: Space, count: int) -> NDArray[np.intp]:
-        """Pick ``count`` samples of the space; return their sorted indices."""
-        ...
-
+__all__ = ["Selector", "register_selector", "selectors"]
 
 selectors = Registry(
     "selector",

@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 from sklearn.utils import check_random_state
 
+from workbench.selection.base import Selector
 from workbench.spaces import Space
-from workbench.validation import control_point_count
 
 
-class Random:
+class Random(Selector):
     """Select samples at random, all equally likely.
 
     Parameters
@@ -22,19 +22,9 @@ class Random:
     def __init__(self, random_state: int | np.random.RandomState | None = None) -> None:
         self.random_state = random_state
 
-    def select(self, space: Space, count: int) -> NDArray[np.intp]:
-        """Pick ``count`` samples without repetition.
-
-        Returns
-        -------
-        ndarray of shape (count,)
-            Sorted indices.
-
-        Raises
-        ------
-        WorkbenchError
-            If the count is not within 2 and n_samples − 1.
-        """
-        count = control_point_count(len(space), count=count)
-        chosen = check_random_state(self.random_state).choice(len(space), count, replace=False)
-        return np.sort(chosen).astype(np.intp)
+    def _select(self, space: Space, count: int, fixed: NDArray[np.intp]) -> NDArray[np.intp]:
+        others = np.setdiff1d(np.arange(len(space)), fixed)
+        chosen = check_random_state(self.random_state).choice(
+            others, count - len(fixed), replace=False
+        )
+        return np.sort(np.concatenate([fixed, chosen])).astype(np.intp)
