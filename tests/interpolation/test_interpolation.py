@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation, Slerp
@@ -20,7 +22,7 @@ def test_interpolators_keep_the_keyframes(waving, name):
     assert np.abs(rebuilt[keys] - waving.rotations[keys]).max() < 1e-12
 
 
-@pytest.mark.parametrize("name", interpolators.names())
+@pytest.mark.parametrize("name", ["linear", "hermite", "hermite-keys", "slerp"])
 def test_interpolators_rebuild_a_steady_turn(arm, name):
     """A joint that turns about one axis at constant speed is rebuilt from two keyframes."""
     angles = np.zeros((11, 4, 3))
@@ -56,8 +58,28 @@ def test_linear_goes_on_across_the_wrap(arm):
     assert np.abs(rebuilt - motion.rotations).max() < 1e-12
 
 
-@pytest.mark.parametrize("keyframes", [[5], [], [3, 99]], ids=["one", "none", "outside"])
-def test_unusable_keyframes_are_refused(waving, keyframes):
-    """Two keyframes of the clip are the least."""
+@pytest.mark.parametrize("name", interpolators.names())
+@pytest.mark.parametrize(
+    "keyframes",
+    [[5], [], [3, 99], [-1, 5], [9, 5], [5, 5, 9], [0.5, 7.0]],
+    ids=["one", "none", "outside", "negative", "unsorted", "repeated", "fractions"],
+)
+def test_unusable_keyframes_are_refused(waving, name, keyframes):
+    """Two keyframes of the clip are the least, sorted and each once."""
     with pytest.raises(WorkbenchError, match="control points"):
-        interpolators.create("slerp").interpolate(waving, np.array(keyframes, dtype=int))
+        interpolators.create(name).interpolate(waving, keyframes)
+
+
+@pytest.mark.parametrize("name", interpolators.names())
+def test_missing_rotations_are_refused(waving, name):
+    """A rotation that is not a number is named, not interpolated."""
+    rotations = waving.rotations.copy()
+    rotations[30, 2, 0, 0] = np.nan
+    with pytest.raises(WorkbenchError, match=r"rotations: got nan at \[30, 2, 0, 0\]"):
+        interpolators.create(name).interpolate(replace(waving, rotations=rotations), [0, 59])
+
+
+def test_only_motions_are_interpolated(waving):
+    """Rotations alone do not tell their joints' channels."""
+    with pytest.raises(WorkbenchError, match="motion: got ndarray, want a Motion"):
+        interpolators.create("linear").interpolate(waving.rotations, [0, 59])

@@ -14,7 +14,10 @@ interpolators = Registry(
     "interpolator",
     {
         "linear": "workbench.interpolation.linear:Linear",
+        "hermite": "workbench.interpolation.hermite:Hermite",
+        "hermite-keys": "workbench.interpolation.hermite:HermiteFromKeys",
         "slerp": "workbench.interpolation.slerp:Slerp",
+        "rbf": "workbench.interpolation.rbf:RBFInTime",
     },
     needs=("interpolate",),
 )
