@@ -14,6 +14,7 @@ from workbench.mocap.distances import (
     position_distance_pairs,
     rotation_distance_matrix,
     rotation_distance_pairs,
+    rotation_distance_table,
 )
 
 WEIGHTS = np.array([3.0, 0.5, 0.0, 1.0])
@@ -49,6 +50,43 @@ def test_pairs_agree_with_the_matrix(poses):
     matrix = rotation_distance_matrix(poses, WEIGHTS)
     pairs = rotation_distance_pairs(poses[rows], poses[columns], WEIGHTS)
     assert np.allclose(pairs, matrix[rows, columns], rtol=1e-14)
+
+
+def by_chord(a, b):
+    """Sum 2·asin(chord) joint by joint with numpy's arcsine."""
+    chord = np.linalg.norm(a - b, axis=(-2, -1)) / np.sqrt(8)
+    return 2 * np.arcsin(np.minimum(chord, 1)) @ WEIGHTS
+
+
+@pytest.mark.parametrize("n", [1, 127, 128, 129, 300])
+def test_tiles_leave_no_seam(n):
+    """Whatever part of a tile is left over, matrix and table are those of single pairs."""
+    vectors = np.random.default_rng(n).uniform(-0.8, 0.8, size=(4 * n, 3))
+    # No two are half a turn apart, where the chord hides rounding errors of 1e-8.
+    poses = Rotation.from_rotvec(vectors).as_matrix().reshape(n, 4, 3, 3)
+    expected = by_chord(poses[:, None], poses)
+    assert np.allclose(rotation_distance_matrix(poses, WEIGHTS), expected, rtol=1e-13, atol=1e-13)
+    few = poses[: n // 2 + 1]
+    table = rotation_distance_table(few, poses, WEIGHTS)
+    assert np.allclose(table, expected[: len(few)], rtol=1e-13, atol=1e-13)
+
+
+def test_small_angles_keep_their_digits():
+    """Poses a billionth of a radian apart have that distance, to rounding of the matrices."""
+    still = np.tile(np.eye(3), (1, 4, 1, 1))
+    turned = Rotation.from_rotvec([1e-9, 0, 0]).as_matrix()[None, None].repeat(4, axis=1)
+    found = rotation_distance_pairs(still, turned, WEIGHTS)[0]
+    assert found == pytest.approx(1e-9 * WEIGHTS.sum(), rel=1e-7)
+
+
+def test_half_a_turn_is_pi():
+    """Half a turn about any axis, where the chord of rounded matrices may exceed its largest."""
+    axes = np.random.default_rng(3).normal(size=(50, 4, 3))
+    vectors = np.pi * axes / np.linalg.norm(axes, axis=2, keepdims=True)
+    turned = Rotation.from_rotvec(vectors.reshape(-1, 3)).as_matrix().reshape(50, 4, 3, 3)
+    still = np.broadcast_to(np.eye(3), turned.shape)
+    found = rotation_distance_pairs(still, turned, WEIGHTS)
+    assert np.allclose(found, np.pi * WEIGHTS.sum(), rtol=1e-7)
 
 
 def test_rotation_distance_of_known_angles():
