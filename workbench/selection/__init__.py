@@ -16,6 +16,9 @@ selectors = Registry(
     {
         "uniform": "workbench.selection.uniform:Uniform",
         "random": "workbench.selection.random:Random",
+        "scs": "workbench.selection.scs:SimpleCurveSimplification",
+        "pb": "workbench.selection.pb:PositionBased",
+        "chord": "workbench.selection.chord:ChordSimplification",
     },
     needs=("select",),
 )

@@ -1,0 +1,188 @@
+"""Errors of frames that are interpolated between two keys, compiled.
+
+All loops that matter run over the frames of one joint and store one number for each, with
+no branch and no call of a library, so that they are compiled to instructions on several
+frames at once.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numba import prange
+
+from workbench.kernels import compiled, compiled_parallel
+from workbench.mocap.rotation_angle import angle_from_squared_chord
+from workbench.selection.tracks import EULER, SLERP, Track
+
+#: Frames that are computed together: few enough for the fastest cache.
+BLOCK = 64
+
+
+@compiled
+def _sine_of_small(x):  # type: ignore[no-untyped-def]  # compiled
+    """Compute sin(x) for |x| <= π/4 by its series, exact to the rounding of a double."""
+    z = x * x
+    p = -1.0 / 1307674368000.0
+    p = p * z + 1.0 / 6227020800.0
+    p = p * z - 1.0 / 39916800.0
+    p = p * z + 1.0 / 362880.0
+    p = p * z - 1.0 / 5040.0
+    p = p * z + 1.0 / 120.0
+    p = p * z - 1.0 / 6.0
+    return x + x * (z * p)
+
+
+@compiled
+def _quaternion_angle(w, x, y, z, a, b, c, d):  # type: ignore[no-untyped-def]  # compiled
+    """Compute the rotation angle between two unit quaternions, of either sign."""
+    sign = 1.0 if w * a + x * b + y * c + z * d >= 0.0 else -1.0
+    dw, dx, dy, dz = w - sign * a, x - sign * b, y - sign * c, z - sign * d
+    chord2 = dw * dw + dx * dx + dy * dy + dz * dz
+    # With φ half the angle, chord² = 4 sin²(φ/2), and matrices are 8 sin²(φ) apart.
+    return angle_from_squared_chord(8.0 * chord2 * (1.0 - 0.25 * chord2))
+
+
+@compiled
+def _add_slerp_errors(goals, weight, first, last, begin, errors):  # type: ignore[no-untyped-def]  # compiled
+    """Add one joint's weighted angles; ``goals`` is its (4, n_frames) quaternions.
+
+    Slerp from p to q is cos(m·θ)·p + sin(m·θ)·u after m frames, where θ is the angle per
+    frame and u the unit vector at right angles to p in the plane of p and q.
+    """
+    p0, p1, p2, p3 = goals[0, first], goals[1, first], goals[2, first], goals[3, first]
+    q0, q1, q2, q3 = goals[0, last], goals[1, last], goals[2, last], goals[3, last]
+    if p0 * q0 + p1 * q1 + p2 * q2 + p3 * q3 < 0.0:
+        # Of the two quaternions of a rotation, the nearer one turns the shorter way.
+        q0, q1, q2, q3 = -q0, -q1, -q2, -q3
+    cosine = p0 * q0 + p1 * q1 + p2 * q2 + p3 * q3
+    u0, u1, u2, u3 = q0 - cosine * p0, q1 - cosine * p1, q2 - cosine * p2, q3 - cosine * p3
+    sine = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2 + u3 * u3)
+    scale = 1.0 / sine if sine > 0.0 else 0.0
+    u0, u1, u2, u3 = u0 * scale, u1 * scale, u2 * scale, u3 * scale
+    half_step = 0.5 * math.atan2(sine, cosine) / (last - first)
+    end = begin + errors.shape[0]
+    w, x, y, z = goals[0, begin:end], goals[1, begin:end], goals[2, begin:end], goals[3, begin:end]
+    for i in range(errors.shape[0]):
+        # Sine and cosine of the whole angle from those of its half, which is at most π/4.
+        s = _sine_of_small((begin - first + i) * half_step)
+        sin = 2.0 * s * math.sqrt(1.0 - s * s)
+        cos = 1.0 - 2.0 * s * s
+        errors[i] += weight * _quaternion_angle(
+            w[i],
+            x[i],
+            y[i],
+            z[i],
+            cos * p0 + sin * u0,
+            cos * p1 + sin * u1,
+            cos * p2 + sin * u2,
+            cos * p3 + sin * u3,
+        )
+
+
+@compiled
+def _add_euler_errors(  # type: ignore[no-untyped-def]  # compiled
+    goals, curves, axes, weight, first, last, begin, errors
+):
+    """Add one joint's weighted angles; ``curves`` is its (3, n_frames) half Euler angles."""
+    for i in range(errors.shape[0]):
+        frame = begin + i
+        share = (frame - first) / (last - first)
+        w, v = 1.0, np.zeros(3)
+        for k in range(3):
+            axis = axes[k]
+            if axis < 0:
+                break
+            half = curves[k, first] + share * (curves[k, last] - curves[k, first])
+            c, s = math.cos(half), math.sin(half)
+            # The product with (c, s·e_axis) from the right.
+            m, n = (axis + 1) % 3, (axis + 2) % 3
+            w, v[axis], v[m], v[n] = (
+                c * w - s * v[axis],
+                c * v[axis] + s * w,
+                c * v[m] + s * v[n],
+                c * v[n] - s * v[m],
+            )
+        angle = _quaternion_angle(
+            goals[0, frame],
+            goals[1, frame],
+            goals[2, frame],
+            goals[3, frame],
+            w,
+            v[0],
+            v[1],
+            v[2],
+        )
+        errors[i] += weight * angle
+
+
+@compiled
+def _add_squares(curve, weight, first, last, begin, errors):  # type: ignore[no-untyped-def]  # compiled
+    """Add the squared differences of one curve from the line between two of its frames."""
+    start, slope = curve[first], (curve[last] - curve[first]) / (last - first)
+    values = curve[begin : begin + errors.shape[0]]
+    for i in range(errors.shape[0]):
+        difference = values[i] - (start + (begin - first + i) * slope)
+        errors[i] += weight * difference * difference
+
+
+@compiled
+def frame_errors(track, first, last, begin, errors):  # type: ignore[no-untyped-def]  # compiled
+    """Write the errors of successive frames that are interpolated between two keys.
+
+    Parameters
+    ----------
+    track : Track
+        The frames.
+    first, last : int
+        The keys.
+    begin : int
+        The frame that the first error is of; all must lie between the keys.
+    errors : ndarray of shape (n_errors,)
+        Written to.
+    """
+    errors[:] = 0.0
+    for row in range(track.goals.shape[0]):
+        weight = track.weights[row]
+        if weight == 0.0:
+            continue
+        goals = track.goals[row]
+        if track.kind == SLERP:
+            _add_slerp_errors(goals, weight, first, last, begin, errors)
+        elif track.kind == EULER:
+            curves, axes = track.curves[row], track.axes[row]
+            _add_euler_errors(goals, curves, axes, weight, first, last, begin, errors)
+        else:
+            _add_squares(goals[0], weight, first, last, begin, errors)
+    if track.kind != SLERP and track.kind != EULER:
+        for i in range(errors.shape[0]):
+            errors[i] = math.sqrt(errors[i])
+
+
+@compiled_parallel
+def _all_between(track, first, last, errors):  # type: ignore[no-untyped-def]  # compiled
+    n_blocks = (errors.shape[0] + BLOCK - 1) // BLOCK
+    for block in prange(n_blocks):
+        start = np.int64(block) * BLOCK
+        part = errors[start : min(start + BLOCK, errors.shape[0])]
+        frame_errors(track, first, last, first + 1 + start, part)
+
+
+def errors_between(track: Track, first: int, last: int) -> np.ndarray:
+    """Compute the errors of all frames between two neighbouring keys.
+
+    Parameters
+    ----------
+    track : Track
+        The frames.
+    first, last : int
+        The keys.
+
+    Returns
+    -------
+    ndarray of shape (last - first - 1,)
+    """
+    errors = np.empty(last - first - 1)
+    _all_between(track, first, last, errors)
+    return errors
