@@ -31,7 +31,14 @@ projectors = Registry(
 )
 register_projector = projectors.register
 
-control_point_projectors = Registry("control-point projector", {}, needs=("fit", "transform"))
+control_point_projectors = Registry(
+    "control-point projector",
+    {
+        "rbfp": "workbench.projection.rbfp:RBFP",
+        "lamp": "workbench.projection.lamp:LAMP",
+    },
+    needs=("fit", "transform"),
+)
 register_control_point_projector = control_point_projectors.register
 
 

@@ -2,28 +2,33 @@
 
 from __future__ import annotations
 
+import warnings
 from abc import ABC, abstractmethod
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from workbench.errors import WorkbenchError
+from workbench.errors import DegenerateDataWarning, WorkbenchError
 from workbench.spaces import Space, check_space
 from workbench.validation import as_embedding, control_point_indices, finite
+
+# Entries of the table of distances of one block, which bounds its memory to some 30 MB.
+_BLOCK_ENTRIES = 4_000_000
 
 
 class ControlPointProjector(ABC):
     """The base of projectors that extend a map of control points to all other samples.
 
-    A subclass implements ``_fit`` and ``_transform``, which may rely on checked input. What
-    it learns of the control points places new samples too.
+    A subclass implements ``_fit`` and ``_transform``, which may rely on checked input, on
+    control points that differ, and on blocks of samples small enough for a table of their
+    distances to the control points. What it learns of these places new samples too.
 
     Attributes
     ----------
     space_ : Space
         Where distances between samples are measured.
     control_samples_ : ndarray of shape (n_control_points, ...)
-        The control points as samples.
+        The different control points as samples.
     positions_ : ndarray of shape (n_control_points, n_components)
         Where they lie on the map.
     """
@@ -55,12 +60,18 @@ class ControlPointProjector(ABC):
         ------
         WorkbenchError
             If the indices or the positions are not valid.
+
+        Warns
+        -----
+        DegenerateDataWarning
+            If equal samples have different positions; they get the mean.
         """
         check_space(space)
         indices = control_point_indices(control_points, len(space))
-        self.positions_ = as_embedding(positions, "positions", len(indices))
+        wanted = as_embedding(positions, "positions", len(indices))
+        different, self.positions_ = _merge_equal(space.features[indices], wanted)
         self.space_ = space
-        self.control_samples_ = space.samples[indices]
+        self.control_samples_ = space.samples[indices[different]]
         self._fit()
         return self
 
@@ -89,7 +100,13 @@ class ControlPointProjector(ABC):
             raise WorkbenchError(
                 f"samples: got shape {array.shape}, want ({', '.join(map(str, wanted))})"
             )
-        return self._transform(finite(array, "samples"))
+        finite(array, "samples")
+        positions = np.empty((len(array), self.positions_.shape[1]))
+        rows = max(1, _BLOCK_ENTRIES // len(self.control_samples_))
+        for start in range(0, len(array), rows):
+            block = slice(start, start + rows)
+            positions[block] = self._transform(array[block])
+        return positions
 
     @abstractmethod
     def _fit(self) -> None:
@@ -97,4 +114,31 @@ class ControlPointProjector(ABC):
 
     @abstractmethod
     def _transform(self, samples: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Place validated samples."""
+        """Place a block of validated samples."""
+
+
+def _merge_equal(
+    features: NDArray[np.float64], positions: NDArray[np.float64]
+) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+    """Find the different samples, and give each the mean position of those equal to it.
+
+    Samples that differ by less than 1e-12 of the extent count as equal: no map could tell
+    them apart in double precision.
+    """
+    extent = float(np.ptp(features, axis=0).max()) or 1.0
+    keys = np.round((features - features.min(axis=0)) / (1e-12 * extent))
+    _, first, group = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    if len(first) == len(features):
+        return np.arange(len(features)), positions
+    group = group.ravel()
+    sums = np.zeros((len(first), positions.shape[1]))
+    np.add.at(sums, group, positions)
+    means = sums / np.bincount(group)[:, None]
+    if not np.allclose(means[group], positions):
+        warnings.warn(
+            f"{len(features) - len(first)} control points equal others but have different "
+            "positions; they get the mean of these",
+            DegenerateDataWarning,
+            stacklevel=3,
+        )
+    return first, means
