@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from workbench.errors import MotionFormatError, WorkbenchError
 from workbench.mocap.bvh_hierarchy import HierarchyParser
-from workbench.mocap.channels import rotations_from_channels
+from workbench.mocap.channels import compose_rows
 from workbench.mocap.motion import Motion
 from workbench.mocap.number_rows import read_number_rows
 from workbench.mocap.skeleton import POSITION_CHANNELS, Skeleton
@@ -76,11 +76,11 @@ def read_bvh(path: str | Path, *, positions: PositionRule = "replace") -> Motion
         path, lines, line, _FRAME_TIME, "Frame Time: and a number of seconds above 0"
     )
     rows = read_number_rows(path, data, start, line, (int(n_frames), n_columns), "Frames:")
-    translations, degrees = _split(skeleton, rows, positions)
+    translations, rotation_columns = _split(skeleton, rows, positions)
     root_translation = translations.pop(0, np.tile(skeleton.offsets[0], (len(rows), 1)))
     return Motion(
         skeleton=_resting_at_means(skeleton, translations),
-        rotations=rotations_from_channels(skeleton, degrees),
+        rotations=compose_rows(skeleton, rows, rotation_columns),
         root_translation=root_translation,
         frame_time=frame_time,
         joint_translations=translations,
@@ -126,8 +126,8 @@ def _resting_at_means(skeleton: Skeleton, translations: dict[int, NDArray[np.flo
 
 def _split(
     skeleton: Skeleton, rows: NDArray[np.float64], positions: PositionRule
-) -> tuple[dict[int, NDArray[np.float64]], NDArray[np.float64]]:
-    """Part the columns into translations of joints, by joint, and rotation angles."""
+) -> tuple[dict[int, NDArray[np.float64]], NDArray[np.intp]]:
+    """Find the translations of joints, by joint, and the columns that are rotation angles."""
     translations: dict[int, NDArray[np.float64]] = {}
     rotation_columns = []
     column = 0
@@ -141,4 +141,4 @@ def _split(
             else:
                 rotation_columns.append(column)
             column += 1
-    return translations, rows[:, rotation_columns]
+    return translations, np.array(rotation_columns, dtype=np.intp)

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from numba import prange
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.kernels import compiled
+from workbench.kernels import compiled, compiled_parallel
+from workbench.mocap.elementary import compiled_fused, sine_and_cosine
 from workbench.mocap.motion import Motion
 from workbench.mocap.rotations import (
     euler_from_rotations,
@@ -17,6 +19,9 @@ from workbench.mocap.skeleton import Skeleton
 
 # A rotation that leaves its joint's channels by more than this cannot be meant by rounding.
 _TOLERANCE = np.radians(1e-6)
+
+# Larger angles lose their full turns before their sine is computed.
+_MOST_DEGREES = 1e9
 
 
 def rotation_columns(skeleton: Skeleton) -> list[slice]:
@@ -32,35 +37,58 @@ def rotation_columns(skeleton: Skeleton) -> list[slice]:
     return [slice(end - count, end) for end, count in zip(ends, counts, strict=True)]
 
 
+#: Frames that one thread composes at a time.
+_BLOCK = 64
+
+
+@compiled_fused
+def _fill_sines(degrees, sines, cosines):  # type: ignore[no-untyped-def]  # compiled
+    for column in range(len(degrees)):
+        sines[column], cosines[column] = sine_and_cosine(degrees[column])
+
+
 @compiled
-def _compose(axes, starts, sines, cosines, rotations):  # type: ignore[no-untyped-def]  # compiled
+def _compose_pose(axes, starts, sines, cosines, pose):  # type: ignore[no-untyped-def]  # compiled
     """Write R_first · R_second · … of each joint; ``axes`` holds 0, 1, 2 per column."""
-    for frame in range(rotations.shape[0]):
-        for joint in range(rotations.shape[1]):
-            m = rotations[frame, joint]
-            start, end = starts[joint], starts[joint + 1]
-            if end - start == 3:
-                i, j, k = axes[start], axes[start + 1], axes[start + 2]
-                # The product for the order XYZ serves all orders: an odd permutation of the
-                # axes only changes the sense of every turn.
-                sense = 1.0 if (j - i) % 3 == 1 else -1.0
-                sa, ca = sense * sines[frame, start], cosines[frame, start]
-                sb, cb = sense * sines[frame, start + 1], cosines[frame, start + 1]
-                sc, cc = sense * sines[frame, start + 2], cosines[frame, start + 2]
-                m[i, i], m[i, j], m[i, k] = cb * cc, -cb * sc, sb
-                m[j, i], m[j, j], m[j, k] = ca * sc + sa * sb * cc, ca * cc - sa * sb * sc, -sa * cb
-                m[k, i], m[k, j], m[k, k] = sa * sc - ca * sb * cc, sa * cc + ca * sb * sc, ca * cb
-                continue
+    for joint in range(pose.shape[0]):
+        m = pose[joint]
+        start, end = starts[joint], starts[joint + 1]
+        if end - start == 3:
+            i, j, k = axes[start], axes[start + 1], axes[start + 2]
+            # The product for the order XYZ serves all orders: an odd permutation of the
+            # axes only changes the sense of every turn.
+            sense = 1.0 if (j - i) % 3 == 1 else -1.0
+            sa, ca = sense * sines[start], cosines[start]
+            sb, cb = sense * sines[start + 1], cosines[start + 1]
+            sc, cc = sense * sines[start + 2], cosines[start + 2]
+            m[i, i], m[i, j], m[i, k] = cb * cc, -cb * sc, sb
+            m[j, i], m[j, j], m[j, k] = ca * sc + sa * sb * cc, ca * cc - sa * sb * sc, -sa * cb
+            m[k, i], m[k, j], m[k, k] = sa * sc - ca * sb * cc, sa * cc + ca * sb * sc, ca * cb
+            continue
+        for i in range(3):
+            for j in range(3):
+                m[i, j] = 1.0 if i == j else 0.0
+        for column in range(start, end):
+            s, c = sines[column], cosines[column]
+            j = (axes[column] + 1) % 3
+            k = (axes[column] + 2) % 3
             for i in range(3):
-                for j in range(3):
-                    m[i, j] = 1.0 if i == j else 0.0
-            for column in range(start, end):
-                s, c = sines[frame, column], cosines[frame, column]
-                j = (axes[column] + 1) % 3
-                k = (axes[column] + 2) % 3
-                for i in range(3):
-                    p, q = m[i, j], m[i, k]
-                    m[i, j], m[i, k] = c * p + s * q, c * q - s * p
+                p, q = m[i, j], m[i, k]
+                m[i, j], m[i, k] = c * p + s * q, c * q - s * p
+
+
+@compiled_parallel
+def _compose(rows, columns, axes, starts, rotations):  # type: ignore[no-untyped-def]  # compiled
+    n_frames, n_columns = rotations.shape[0], len(columns)
+    for block in prange((n_frames + _BLOCK - 1) // _BLOCK):
+        degrees = np.empty(n_columns)
+        sines = np.empty(n_columns)
+        cosines = np.empty(n_columns)
+        for frame in range(block * _BLOCK, min((block + 1) * _BLOCK, n_frames)):
+            for column in range(n_columns):
+                degrees[column] = rows[frame, columns[column]]
+            _fill_sines(degrees, sines, cosines)
+            _compose_pose(axes, starts, sines, cosines, rotations[frame])
 
 
 def rotations_from_channels(skeleton: Skeleton, degrees: ArrayLike) -> NDArray[np.float64]:
@@ -89,15 +117,37 @@ def rotations_from_channels(skeleton: Skeleton, degrees: ArrayLike) -> NDArray[n
     array([ 0., -1.,  0.])
     """
     degrees = np.asarray(degrees, dtype=np.float64)
+    n_columns = sum(len(skeleton.rotation_order(joint)) for joint in range(skeleton.n_joints))
+    if degrees.ndim != 2 or degrees.shape[1] != n_columns:
+        raise WorkbenchError(f"degrees: got shape {degrees.shape}, want (n_frames, {n_columns})")
+    return compose_rows(skeleton, degrees, np.arange(n_columns))
+
+
+def compose_rows(
+    skeleton: Skeleton, rows: NDArray[np.float64], columns: NDArray[np.intp]
+) -> NDArray[np.float64]:
+    """Compose joint rotations from angles that stand among other channels.
+
+    Parameters
+    ----------
+    skeleton : Skeleton
+        The joints.
+    rows : ndarray of shape (n_frames, n_channels)
+        All channels of a file; angles in degrees.
+    columns : ndarray of shape (n_rotation_channels,)
+        Which of them are the rotation channels, in file order.
+
+    Returns
+    -------
+    ndarray of shape (n_frames, n_joints, 3, 3)
+    """
     orders = [skeleton.rotation_order(joint) for joint in range(skeleton.n_joints)]
     axes = np.array(["XYZ".index(axis) for order in orders for axis in order], dtype=np.intp)
-    if degrees.ndim != 2 or degrees.shape[1] != len(axes):
-        raise WorkbenchError(f"degrees: got shape {degrees.shape}, want (n_frames, {len(axes)})")
     starts = np.cumsum([0, *(len(order) for order in orders)], dtype=np.intp)
-    rotations = np.empty((len(degrees), skeleton.n_joints, 3, 3))
-    radians = np.radians(degrees)
-    # numpy's sines of whole arrays are several times faster than one at a time.
-    _compose(axes, starts, np.sin(radians), np.cos(radians), rotations)
+    rotations = np.empty((len(rows), skeleton.n_joints, 3, 3))
+    if rows.size and not max(rows.max(), -rows.min()) < _MOST_DEGREES:
+        rows = np.fmod(rows, 360.0)
+    _compose(np.ascontiguousarray(rows), columns, axes, starts, rotations)
     return rotations
 
 

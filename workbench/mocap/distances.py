@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.kernels import compiled, compiled_parallel
-from workbench.mocap.rotation_angle import angle_from_squared_chord, compiled_fused
+from workbench.mocap.elementary import angle_from_squared_chord, compiled_fused
 from workbench.validation import require_memory
 
 #: Poses in a row or column of a tile: what a tile reads and writes stays in the cache.

@@ -146,7 +146,7 @@ def _nearest_rotations(matrices):  # type: ignore[no-untyped-def]  # compiled
     return refused
 
 
-def nearest_rotations(matrices: ArrayLike) -> NDArray[np.float64]:
+def nearest_rotations(matrices: ArrayLike, *, overwrite: bool = False) -> NDArray[np.float64]:
     """Find the rotation nearest to each matrix, in the Frobenius norm.
 
     This is the orthonormalisation of spatial keyframing: interpolated matrix entries no
@@ -158,6 +158,8 @@ def nearest_rotations(matrices: ArrayLike) -> NDArray[np.float64]:
     ----------
     matrices : array-like of shape (..., 3, 3)
         Any finite matrices.
+    overwrite : bool
+        Whether the result may take the place of the input, to spare memory.
 
     Returns
     -------
@@ -176,7 +178,8 @@ def nearest_rotations(matrices: ArrayLike) -> NDArray[np.float64]:
            [0., 1., 0.],
            [0., 0., 1.]])
     """
-    result = as_numbers("matrices", matrices, 3, 3).copy()
+    copy = None if overwrite else True
+    result = np.array(as_numbers("matrices", matrices, 3, 3), order="C", copy=copy)
     rows = result.shape[0] if result.ndim == 4 else 1
     if result.size and _nearest_rotations(result.reshape(rows, -1, 3, 3)):
         raise WorkbenchError("matrices: got numbers that are not finite")
