@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import example, given
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import MotionFormatError
@@ -19,6 +19,7 @@ _WRITTEN = st.one_of(
 )
 
 
+@settings(deadline=None)  # the first call may compile
 @given(text=_WRITTEN)
 @example("9007199254740993")
 @example("9007199254740992e22")
@@ -60,6 +61,53 @@ def test_every_wrong_shape_is_described(rows, columns, lengths, end):
         with pytest.raises(MotionFormatError) as caught:
             read_number_rows("f", text.encode(), 0, 7, (rows, columns), "Frames:")
         assert 7 <= caught.value.line <= 7 + max(len(lengths), 1)
+
+
+def _long_text(end="\n", n_rows=20_000):
+    """Give more rows than one thread reads at once."""
+    values = np.random.default_rng(0).integers(-9999, 9999, size=(n_rows, 3)) / 64
+    return values, end.join(" ".join(map(repr, row)) for row in values.tolist()).encode()
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r", "\n\n", " \n \n\t"], ids=repr)
+def test_parts_of_a_long_file_join_without_a_seam(end):
+    """However lines end, and with blank lines between them, all numbers arrive in order."""
+    values, text = _long_text(end)
+    np.testing.assert_array_equal(scan_numbers(text, 0, values.shape), values)
+
+
+@pytest.mark.parametrize("row", [0, 5000, 19_999])
+@pytest.mark.parametrize(
+    ("fault", "expected"),
+    [("1 2", "found 2 numbers"), ("1 2 3 4", "found 4 numbers"), ("1 x 3", "found 'x'")],
+    ids=["short", "long", "word"],
+)
+def test_faults_of_a_long_file_are_found_where_they_are(row, fault, expected):
+    """The error names the line in whichever part it is."""
+    values, text = _long_text()
+    lines = text.split(b"\n")
+    lines[row] = fault.encode()
+    with pytest.raises(MotionFormatError, match=expected) as caught:
+        read_number_rows("f", b"\n".join(lines), 0, 0, values.shape, "Frames:")
+    assert caught.value.line == row + 1
+
+
+@pytest.mark.parametrize("change", [-1, 1], ids=["too-few", "too-many"])
+def test_wrong_numbers_of_rows_of_a_long_file_are_refused(change):
+    """A row more or less than announced is no motion of that length."""
+    values, text = _long_text()
+    with pytest.raises(MotionFormatError, match="rows"):
+        read_number_rows("f", text, 0, 0, (len(values) + change, 3), "Frames:")
+
+
+def test_hard_numbers_of_a_long_file_are_correctly_rounded():
+    """One number that the fast path hands back does not keep the others from being read."""
+    values, text = _long_text()
+    lines = text.split(b"\n")
+    lines[7] = b"123456789012345678901234567890 1e-320 3"
+    found = scan_numbers(b"\n".join(lines), 0, values.shape)
+    values[7] = [123456789012345678901234567890.0, 1e-320, 3]
+    np.testing.assert_array_equal(found, values)
 
 
 def test_agrees_with_loadtxt_on_real_rows(real_mocap):

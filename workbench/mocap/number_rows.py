@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+from numba import prange
 from numpy.typing import NDArray
 
 from workbench.errors import MotionFormatError
-from workbench.kernels import compiled
+from workbench.kernels import compiled, compiled_parallel
 from workbench.mocap.textfile import lines_of, parse_number, quoted
+
+_PART = 1 << 16  # bytes that a thread reads at once
 
 _DONE, _HARD = 0, 1  # what the scanner returns; anything else is a fault
 _POWERS = 10.0 ** np.arange(23)  # every one of them is exact
@@ -89,6 +93,20 @@ def _scan(  # type: ignore[no-untyped-def]  # compiled
         mid_line = True
 
 
+@compiled_parallel
+def _scan_each(  # type: ignore[no-untyped-def]  # compiled
+    data, cuts, firsts, lasts, values, n_columns, powers
+):
+    """Fill values[firsts[i]:lasts[i]] from data[cuts[i]:cuts[i + 1]], and tell if all fitted."""
+    good = 0
+    for part in prange(len(firsts)):
+        piece = data[cuts[part] : cuts[part + 1]]
+        room = values[firsts[part] : lasts[part]]
+        _, index, state = _scan(piece, 0, room, 0, n_columns, False, powers)
+        good += 1 if state == 0 and index == len(room) else 0
+    return good == len(firsts)
+
+
 def read_number_rows(
     path: str | Path, data: bytes, start: int, line: int, shape: tuple[int, int], announced: str
 ) -> NDArray[np.float64]:
@@ -150,16 +168,57 @@ def scan_numbers(data: bytes, start: int, shape: tuple[int, int]) -> NDArray[np.
         return None
     values = np.empty(n_rows * n_columns)
     view = np.frombuffer(data, dtype=np.uint8)
+    if not _scan_parts(data, view, start, values, n_columns) and not _scan_all(
+        data, view, start, values, n_columns
+    ):
+        return None
+    return values.reshape(shape)
+
+
+def _scan_parts(
+    data: bytes,
+    view: NDArray[np.uint8],
+    start: int,
+    values: NDArray[np.float64],
+    n_columns: int,
+) -> bool:
+    """Read the usual file with one row in every line, a part per thread.
+
+    Returns
+    -------
+    bool
+        Whether that went well; otherwise nothing is known but that it did not.
+    """
+    goals = np.linspace(start, len(data), 1 + max(1, (len(data) - start) // _PART))
+    cuts = [start, *(data.find(b"\n", int(goal)) + 1 for goal in goals[1:-1]), len(data)]
+    if sorted(cuts) != cuts:
+        return False
+    lines = [data.count(b"\n", a, b) for a, b in pairwise(cuts)]
+    firsts = n_columns * np.cumsum([0, *lines[:-1]])
+    if firsts[-1] > len(values):
+        return False
+    lasts = np.append(firsts[1:], len(values))
+    return bool(_scan_each(view, np.array(cuts), firsts, lasts, values, n_columns, _POWERS))
+
+
+def _scan_all(
+    data: bytes,
+    view: NDArray[np.uint8],
+    start: int,
+    values: NDArray[np.float64],
+    n_columns: int,
+) -> bool:
+    """Read from beginning to end, whatever the lines and the numbers look like."""
     position, index, state = _scan(view, start, values, 0, n_columns, False, _POWERS)
     while state == _HARD:
         token = data[position : position + 4096].split(None, 1)[0]
         number = parse_number(token.decode("ascii"))
         if number is None:
-            return None
+            return False
         values[index] = number
         position += len(token)
         position, index, state = _scan(view, position, values, index + 1, n_columns, True, _POWERS)
-    return values.reshape(shape) if state == _DONE and index == len(values) else None
+    return bool(state == _DONE and index == len(values))
 
 
 def _fault(
