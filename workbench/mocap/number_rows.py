@@ -25,7 +25,7 @@ def _scan(  # type: ignore[no-untyped-def]  # compiled
 ):
     """Fill ``values`` from ``index`` on with the numbers from ``position`` on.
 
-    Up to 19 digits are gathered in an integer. Where it is at most 2**53 and the power of
+    Up to 18 digits are gathered in an integer. Where it is at most 2**53 and the power of
     ten is exact, one multiplication or division gives the correctly rounded number
     (Clinger 1990); other numbers are handed back as hard.
 
@@ -50,23 +50,20 @@ def _scan(  # type: ignore[no-untyped-def]  # compiled
         negative = data[position] == 45
         if negative or data[position] == 43:
             position += 1
-        mantissa, digits, exponent, any_digit = np.int64(0), 0, 0, False
+        mantissa, n_digits, exponent = np.int64(0), -position, 0
         while position < size and 48 <= data[position] <= 57:
-            any_digit = True
-            if digits < 18:
-                mantissa = mantissa * 10 + (data[position] - 48)
-            digits += 1 if mantissa > 0 else 0
+            mantissa = mantissa * 10 + (data[position] - 48)
             position += 1
         if position < size and data[position] == 46:
             position += 1
+            n_digits -= 1  # the point is none
+            exponent = position
             while position < size and 48 <= data[position] <= 57:
-                any_digit = True
-                if digits < 18:
-                    mantissa = mantissa * 10 + (data[position] - 48)
-                    exponent -= 1
-                digits += 1 if mantissa > 0 else 0
+                mantissa = mantissa * 10 + (data[position] - 48)
                 position += 1
-        if not any_digit:
+            exponent -= position
+        n_digits += position
+        if n_digits == 0:
             return start, index, 2
         if position < size and (data[position] == 101 or data[position] == 69):
             position += 1
@@ -84,13 +81,22 @@ def _scan(  # type: ignore[no-untyped-def]  # compiled
             after = data[position]
             if after != 32 and after != 9 and after != 10 and after != 13:
                 return start, index, 2
-        if digits > 18 or mantissa > 9007199254740992 or exponent < -22 or exponent > 22:
+        if n_digits > 18 or mantissa > 9007199254740992 or exponent < -22 or exponent > 22:
             return start, index, 1
         value = float(mantissa)
         value = value / powers[-exponent] if exponent < 0 else value * powers[exponent]
         values[index] = -value if negative else value
         index += 1
         mid_line = True
+
+
+@compiled
+def _count_lines(data):  # type: ignore[no-untyped-def]  # compiled
+    """Count ends of lines; ``bytes.count`` is slow where there are many."""
+    count = 0
+    for i in range(len(data)):
+        count += data[i] == 10
+    return count
 
 
 @compiled_parallel
@@ -193,7 +199,7 @@ def _scan_parts(
     cuts = [start, *(data.find(b"\n", int(goal)) + 1 for goal in goals[1:-1]), len(data)]
     if sorted(cuts) != cuts:
         return False
-    lines = [data.count(b"\n", a, b) for a, b in pairwise(cuts)]
+    lines = [_count_lines(view[a:b]) for a, b in pairwise(cuts)]
     firsts = n_columns * np.cumsum([0, *lines[:-1]])
     if firsts[-1] > len(values):
         return False
