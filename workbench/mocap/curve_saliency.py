@@ -106,7 +106,7 @@ def curve_curvature(curves: ArrayLike, curvature: str = "slope") -> NDArray[np.f
     Examples
     --------
     >>> curve_curvature([[0.0], [0.0], [1.0], [2.0]], "value").ravel()
-    array([1.    , 1.    , 0.    , 0.    ])
+    array([1., 1., 0., 0.])
     """
     values = as_curves(curves)
     if curvature not in CURVATURES:

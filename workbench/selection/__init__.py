@@ -19,6 +19,8 @@ selectors = Registry(
         "scs": "workbench.selection.scs:SimpleCurveSimplification",
         "pb": "workbench.selection.pb:PositionBased",
         "chord": "workbench.selection.chord:ChordSimplification",
+        "optimal": "workbench.selection.optimal:Optimal",
+        "saliency": "workbench.selection.saliency:Saliency",
     },
     needs=("select",),
 )
