@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,7 +51,7 @@ class Saliency(Selector):
     contacts : bool
         Whether moments at which a foot touches the ground are handled on their own
         (section 3.3).
-    feet : iterable of str, optional
+    feet : sequence of str, optional
         Names of the feet's joints; by default they are found by name, else by height.
     foot_sigma : float
         σ of the feet's curves, in frames.
@@ -79,7 +79,7 @@ class Saliency(Selector):
         curves: str = "angles",
         root_translation: bool = False,
         contacts: bool = False,
-        feet: Iterable[str] | None = None,
+        feet: Sequence[str] | None = None,
         foot_sigma: float = 3.0,
         up: str = "y",
         variance: float = 0.9,
