@@ -31,6 +31,9 @@ back_projectors = Registry(
     "back-projector",
     {
         "rbf": "workbench.backprojection.rbf:RBF",
+        "ilamp": "workbench.backprojection.ilamp:ILAMP",
+        "knn": "workbench.backprojection.knn:KNN",
+        "inverse": "workbench.backprojection.inverse:ProjectorInverse",
         "spatial-keyframes": "workbench.backprojection.poses:SpatialKeyframes",
     },
     needs=("fit", "predict"),

@@ -1,54 +1,105 @@
-"""Radial basis functions with a linear kernel and a linear polynomial."""
+"""Radial basis functions with a linear polynomial."""
 
 from __future__ import annotations
 
 import warnings
+from numbers import Real
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator, MultiOutputMixin, RegressorMixin
-from sklearn.utils.validation import check_is_fitted, validate_data
 
-from workbench.errors import DegenerateDataWarning
+from workbench.backprojection.checking import at_most, control_points, empty_result, positions
+from workbench.backprojection.radial import (
+    RadialKernel,
+    fill_basis,
+    fill_basis_derivatives,
+    radial_kernel,
+)
+from workbench.backprojection.rbf_system import Places, merge_coinciding, solve, spread_out
+from workbench.errors import DegenerateDataWarning, WorkbenchError
 
-#: Rows evaluated at once, which bounds the memory of the kernel matrix.
-_BLOCK = 8192
+#: Numbers in the matrix of basis functions that is evaluated at once: 4 MB.
+_BLOCK = 2**19
 
 
 class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):
     """Rebuild samples by radial basis function interpolation from control points.
 
-    f(x) = Σ_j w_j ‖x − c_j‖ + P(x), with a linear polynomial P, passes through the samples
-    of all control points c_j (Costa 2018, Eq. 2.1 with the kernel of Eq. 2.3).
+    f(x) = Σ_j w_j φ(‖x − c_j‖) + P(x), with a linear polynomial P, passes through the
+    samples of all control points c_j (Costa 2018, Eq. 2.1 with the kernel of Eq. 2.3).
 
-    The weights satisfy Σ w_j = 0 and Σ w_j c_j = 0. On the subspace of such weights the
-    kernel matrix is negative definite, so the system is solved there by a Cholesky
-    factorisation, and collinear control points, which leave P undetermined, get the P of
-    smallest norm instead of a failure. Control points that coincide share the mean of
-    their samples, which is the least-squares solution; a warning says so.
+    The weights satisfy Σ w_j = 0 and Σ w_j c_j = 0. On the subspace of such weights every
+    kernel offered is definite, so the system is solved there by a Cholesky factorisation,
+    and collinear control points, which leave P undetermined, get the P of smallest norm
+    instead of a failure. The polynomial, degree 1 whatever the kernel, is what thin plates
+    and cubics need to be solvable; with it all kernels continue a plane exactly. Control
+    points that coincide share the mean of their samples, which is the least-squares
+    solution; a warning says so.
+
+    Parameters
+    ----------
+    kernel : {"linear", "thin-plate", "cubic", "gaussian", "multiquadric"}
+        φ(r): r (Costa 2018, Eq. 2.3), r² log r, r³, exp(−ε²r²), √(1 + ε²r²). All but the
+        linear one, which has a kink at each control point, are smooth there.
+    epsilon : float, optional
+        Inverse width ε of the last two, per unit of the embedding. By default
+        1 / (0.815 · mean distance from a centre to its nearest one), as Hardy (1971) has it.
+    smoothing : float
+        λ of Σ_i ‖y_i − f(x_i)‖² + λ E(f), E the energy of the kernel; 0 interpolates.
+        Its unit is that of φ, as in scipy's ``RBFInterpolator``.
+    centers : int, optional
+        Use that many of the control points as centres, spread over the plane, and fit the
+        rest by least squares; evaluation then costs that much less. By default all of them
+        are centres.
 
     Attributes
     ----------
     centers_ : ndarray of shape (n_centers, n_dimensions)
-        The different control points.
+        The centres, all different.
     weights_ : ndarray of shape (n_centers, n_outputs)
-        RBF weights.
+        Weights w_j.
     polynomial_ : ndarray of shape (n_dimensions + 1, n_outputs)
         Coefficients of P: the constant, then one row for each dimension.
+    epsilon_ : float
+        The ε that was used; 1 for kernels without a width.
     n_features_in_ : int
         Dimensions of the embedding.
+
+    References
+    ----------
+    Hardy, R. L. (1971). Multiquadric equations of topography and other irregular surfaces.
+    Micchelli, C. A. (1986). Interpolation of scattered data: distance matrices and
+    conditionally positive definite functions.
 
     Examples
     --------
     >>> points = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [1.0, 1.0]]
-    >>> RBF().fit(points, [0.0, 1.0, 1.0, 2.0]).predict([[0.25, 0.5]]).round(12)
+    >>> model = RBF().fit(points, [0.0, 1.0, 1.0, 2.0])
+    >>> model.predict([[0.25, 0.5]]).round(12)
     array([0.75])
+    >>> model.jacobian([[0.25, 0.5]]).round(12)
+    array([[[1., 1.]]])
     """
 
     centers_: NDArray[np.float64]
     weights_: NDArray[np.float64]
     polynomial_: NDArray[np.float64]
+    epsilon_: float
+
+    def __init__(
+        self,
+        kernel: str = "linear",
+        *,
+        epsilon: float | None = None,
+        smoothing: float = 0.0,
+        centers: int | None = None,
+    ) -> None:
+        self.kernel = kernel
+        self.epsilon = epsilon
+        self.smoothing = smoothing
+        self.centers = centers
 
     def fit(self, X: ArrayLike, y: ArrayLike) -> RBF:
         """Find the weights that reproduce the samples at the control points.
@@ -65,43 +116,38 @@ class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):
         RBF
             Itself.
 
+        Raises
+        ------
+        ValueError
+            If a parameter, a position or a sample is not valid.
+
         Warns
         -----
         DegenerateDataWarning
-            If control points with different samples coincide.
+            If control points with different samples coincide and are to be interpolated.
+        AdjustmentWarning
+            If there are fewer control points than ``centers``.
         """
-        points, targets = validate_data(
-            self, X, y, multi_output=True, y_numeric=True, dtype=np.float64
-        )
-        values = np.asarray(targets, dtype=np.float64)
+        kernel = radial_kernel(self.kernel)
+        smoothing = _number("smoothing", self.smoothing, allow_zero=True)
+        if self.epsilon is not None:
+            _number("epsilon", self.epsilon, allow_zero=False)
+        points, values = control_points(self, X, y)
         self._single_output = values.ndim == 1
-        centers, values = _merge_coinciding(points, values.reshape(len(points), -1))
-
-        # Centred and scaled, so that the polynomial part is as well conditioned as can be.
-        middle = centers.mean(axis=0)
-        size = float(np.abs(centers - middle).max()) or 1.0
-        scaled = (centers - middle) / size
-        polynomial = np.column_stack([np.ones(len(scaled)), scaled])
-        left, singular, right = np.linalg.svd(polynomial, full_matrices=True)
-        rank = int(np.sum(singular > 1e-10 * singular[0]))
-        span, free = left[:, :rank], left[:, rank:]
-
-        # Relative to one sample, so that equal samples stay equal everywhere, exactly.
-        base = values[0]
-        values = values - base
-        kernel = _distances(scaled, scaled)
-        weights = _solve_negative_definite(free, kernel, values)
-        rest = span.T @ (values - kernel @ weights)
-        coefficients = right[:rank].T @ (rest / singular[:rank, None])
-
-        self.centers_ = centers
-        self.weights_ = weights / size
-        self.polynomial_ = np.vstack(
-            [
-                base + coefficients[0] - (middle / size) @ coefficients[1:],
-                coefficients[1:] / size,
-            ]
+        places = merge_coinciding(points, values.reshape(len(points), -1))
+        self.centers_ = self._choose_centers(places, len(points))
+        if places.contradicting and smoothing == 0 and len(self.centers_) == len(places.points):
+            warnings.warn(
+                f"{len(points) - len(places.points)} control points coincide with others but "
+                "have different samples; each place gets the mean of its samples",
+                DegenerateDataWarning,
+                stacklevel=2,
+            )
+        self.epsilon_ = self._choose_epsilon(kernel)
+        self.weights_, self.polynomial_ = solve(
+            kernel, self.epsilon_, smoothing, places, self.centers_
         )
+        self._coefficients = np.vstack([self.weights_, self.polynomial_])
         return self
 
     def predict(self, X: ArrayLike) -> NDArray[np.float64]:
@@ -116,16 +162,49 @@ class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):
         -------
         ndarray of shape (n_points, n_outputs), or (n_points,) if fitted so
         """
-        check_is_fitted(self)
-        points = validate_data(self, X, reset=False, dtype=np.float64)
-        result = np.empty((len(points), self.weights_.shape[1]))
-        for start in range(0, len(points), _BLOCK):
-            block = points[start : start + _BLOCK]
-            part = _distances(block, self.centers_) @ self.weights_
-            part += block @ self.polynomial_[1:]
-            part += self.polynomial_[0]
-            result[start : start + _BLOCK] = part
-        return result[:, 0] if self._single_output else result
+        points = positions(self, X)
+        values = self._values(points)
+        return values[:, 0] if self._single_output else values
+
+    def jacobian(self, X: ArrayLike) -> NDArray[np.float64]:
+        """Differentiate the rebuilt samples by the position.
+
+        ∂f/∂x = Σ_j w_j φ'(r_j) (x − c_j) / r_j + ∂P/∂x. The linear kernel has a kink at its
+        centre; there its contribution is the mean of the two one-sided derivatives, 0.
+
+        Parameters
+        ----------
+        X : array-like of shape (n_points, n_dimensions)
+            Positions.
+
+        Returns
+        -------
+        ndarray of shape (n_points, n_outputs, n_dimensions)
+            A view, in memory one dimension of the embedding after the other:
+            ``np.swapaxes(jacobian, 1, 2)`` is contiguous.
+        """
+        return self._derivatives(positions(self, X))
+
+    def predict_with_jacobian(
+        self, X: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Rebuild the samples and differentiate them by the position.
+
+        Parameters
+        ----------
+        X : array-like of shape (n_points, n_dimensions)
+            Positions.
+
+        Returns
+        -------
+        values : ndarray of shape (n_points, n_outputs), or (n_points,) if fitted so
+            As :meth:`predict` gives them.
+        jacobian : ndarray of shape (n_points, n_outputs, n_dimensions)
+            As :meth:`jacobian` gives it.
+        """
+        points = positions(self, X)
+        values = self._values(points)
+        return (values[:, 0] if self._single_output else values), self._derivatives(points)
 
     def __sklearn_tags__(self) -> Any:
         """Tell scikit-learn that fitting far from the plane is not what this is made for."""
@@ -133,54 +212,59 @@ class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):
         tags.regressor_tags.poor_score = True
         return tags
 
+    def _values(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        code = radial_kernel(self.kernel).code
+        result = empty_result(len(points), self._coefficients.shape[1])
+        rows = max(1, _BLOCK // len(self._coefficients))
+        basis = np.empty((min(rows, len(points)), len(self._coefficients)))
+        for start in range(0, len(points), rows):
+            block = points[start : start + rows]
+            part = basis[: len(block)]
+            fill_basis(code, self.epsilon_, block, self.centers_, part)
+            np.dot(part, self._coefficients, out=result[start : start + rows])
+        return result
 
-def _distances(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]:
-    from scipy.spatial.distance import cdist
+    def _derivatives(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        code = radial_kernel(self.kernel).code
+        n_basis, n_outputs = self._coefficients.shape
+        dimensions = points.shape[1]
+        result = empty_result(len(points), dimensions, n_outputs)
+        rows = max(1, _BLOCK // (dimensions * n_basis))
+        basis = np.empty((min(rows, len(points)), dimensions, n_basis))
+        for start in range(0, len(points), rows):
+            block = points[start : start + rows]
+            part = basis[: len(block)]
+            fill_basis_derivatives(code, self.epsilon_, block, self.centers_, part)
+            np.dot(
+                part.reshape(-1, n_basis),
+                self._coefficients,
+                out=result[start : start + rows].reshape(-1, n_outputs),
+            )
+        return np.swapaxes(result, 1, 2)
 
-    return cdist(a, b)
+    def _choose_centers(self, places: Places, n_control_points: int) -> NDArray[np.float64]:
+        if self.centers is None:
+            return places.points
+        count = at_most(self, "centers", n_control_points)
+        if count >= len(places.points):
+            return places.points
+        return places.points[spread_out(places.points, count)]
+
+    def _choose_epsilon(self, kernel: RadialKernel) -> float:
+        if kernel.power == 0 and self.epsilon is not None:
+            return float(self.epsilon)
+        if kernel.power > 0 or len(self.centers_) == 1:
+            return 1.0
+        from scipy.spatial import KDTree
+
+        gaps, _ = KDTree(self.centers_).query(self.centers_, k=2)
+        return float(1.0 / (0.815 * gaps[:, 1].mean()))
 
 
-def _merge_coinciding(
-    points: NDArray[np.float64], values: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Replace control points at the same place by one with their mean sample.
-
-    Points closer than 1e-12 of the cloud's extent count as the same: no weights could
-    tell them apart in double precision.
-    """
-    extent = float(np.ptp(points, axis=0).max()) or 1.0
-    keys = np.round((points - points.min(axis=0)) / (1e-12 * extent))
-    _, first, group = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    if len(first) == len(points):
-        return points, values
-    group = group.ravel()
-    sums = np.zeros((len(first), values.shape[1]))
-    np.add.at(sums, group, values)
-    means = sums / np.bincount(group)[:, None]
-    if not np.allclose(means[group], values):
-        warnings.warn(
-            f"{len(points) - len(first)} control points coincide with others but have "
-            "different samples; each place gets the mean of its samples",
-            DegenerateDataWarning,
-            stacklevel=3,
-        )
-    return points[first], means
-
-
-def _solve_negative_definite(
-    free: NDArray[np.float64], kernel: NDArray[np.float64], values: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Solve for kernel weights within the span of ``free``, refined once."""
-    from scipy.linalg import cho_factor, cho_solve
-
-    if free.shape[1] == 0:
-        return np.zeros_like(values)
-    matrix = -(free.T @ kernel @ free)
-    try:
-        factor = cho_factor(matrix)
-    except np.linalg.LinAlgError:
-        # Control points so close that rounding makes the matrix indefinite.
-        return free @ np.linalg.lstsq(matrix, -(free.T @ values), rcond=None)[0]
-    weights = free @ cho_solve(factor, -(free.T @ values))
-    residual = free.T @ (values - kernel @ weights)
-    return weights + free @ cho_solve(factor, -residual)
+def _number(name: str, value: Any, *, allow_zero: bool) -> float:
+    """Refuse what is no finite number above 0, or 0 where that is allowed."""
+    good = isinstance(value, Real) and not isinstance(value, bool) and np.isfinite(float(value))
+    if not good or value < 0 or (value == 0 and not allow_zero):
+        wanted = "a number of at least 0" if allow_zero else "a number above 0"
+        raise WorkbenchError(f"{name}: got {value!r}, want {wanted}")
+    return float(value)
