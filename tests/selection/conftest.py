@@ -31,6 +31,15 @@ def random_motion(n_frames: int, seed: int) -> PoseSpace:
     return PoseSpace(Motion(SKELETON, rotations, np.zeros((n_frames, 3)), 1 / 30, name="random"))
 
 
+def wave(n_frames: int) -> PoseSpace:
+    """Make a motion of smooth turns, of several periods and some of them large."""
+    t = np.linspace(0.0, 1.0, n_frames)[:, None, None]
+    speeds = np.array([[1.0, 2.0, 0.5], [3.0, 1.5, 0.3], [5.0, 0.7, 2.5]])
+    angles = 80.0 * np.sin(2 * np.pi * speeds * t + speeds)
+    rotations = rotations_from_euler("ZYX", angles)
+    return PoseSpace(Motion(SKELETON, rotations, np.zeros((n_frames, 3)), 1 / 30, name="wave"))
+
+
 def still_motion(n_frames: int) -> PoseSpace:
     """Make a motion without any."""
     rotations = np.tile(np.eye(3), (n_frames, 3, 1, 1))

@@ -13,38 +13,28 @@ import numpy as np
 from numba import prange
 
 from workbench.kernels import compiled, compiled_parallel
-from workbench.mocap.rotation_angle import angle_from_squared_chord
+from workbench.mocap.elementary import (
+    angle_from_squared_chord,
+    compiled_fused,
+    sine_and_cosine,
+)
 from workbench.selection.tracks import EULER, SLERP, Track
 
 #: Frames that are computed together: few enough for the fastest cache.
 BLOCK = 64
 
 
-@compiled
-def _sine_of_small(x):  # type: ignore[no-untyped-def]  # compiled
-    """Compute sin(x) for |x| <= π/4 by its series, exact to the rounding of a double."""
-    z = x * x
-    p = -1.0 / 1307674368000.0
-    p = p * z + 1.0 / 6227020800.0
-    p = p * z - 1.0 / 39916800.0
-    p = p * z + 1.0 / 362880.0
-    p = p * z - 1.0 / 5040.0
-    p = p * z + 1.0 / 120.0
-    p = p * z - 1.0 / 6.0
-    return x + x * (z * p)
-
-
-@compiled
+@compiled_fused
 def _quaternion_angle(w, x, y, z, a, b, c, d):  # type: ignore[no-untyped-def]  # compiled
     """Compute the rotation angle between two unit quaternions, of either sign."""
     sign = 1.0 if w * a + x * b + y * c + z * d >= 0.0 else -1.0
     dw, dx, dy, dz = w - sign * a, x - sign * b, y - sign * c, z - sign * d
     chord2 = dw * dw + dx * dx + dy * dy + dz * dz
-    # With φ half the angle, chord² = 4 sin²(φ/2), and matrices are 8 sin²(φ) apart.
+    # With φ half the angle, chord² = 4 sin²(φ/2), and matrices are 8 sin²(φ) apart, squared.
     return angle_from_squared_chord(8.0 * chord2 * (1.0 - 0.25 * chord2))
 
 
-@compiled
+@compiled_fused
 def _add_slerp_errors(goals, weight, first, last, begin, errors):  # type: ignore[no-untyped-def]  # compiled
     """Add one joint's weighted angles; ``goals`` is its (4, n_frames) quaternions.
 
@@ -61,60 +51,41 @@ def _add_slerp_errors(goals, weight, first, last, begin, errors):  # type: ignor
     sine = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2 + u3 * u3)
     scale = 1.0 / sine if sine > 0.0 else 0.0
     u0, u1, u2, u3 = u0 * scale, u1 * scale, u2 * scale, u3 * scale
-    half_step = 0.5 * math.atan2(sine, cosine) / (last - first)
+    step = math.degrees(math.atan2(sine, cosine)) / (last - first)
     end = begin + errors.shape[0]
     w, x, y, z = goals[0, begin:end], goals[1, begin:end], goals[2, begin:end], goals[3, begin:end]
     for i in range(errors.shape[0]):
-        # Sine and cosine of the whole angle from those of its half, which is at most π/4.
-        s = _sine_of_small((begin - first + i) * half_step)
-        sin = 2.0 * s * math.sqrt(1.0 - s * s)
-        cos = 1.0 - 2.0 * s * s
-        errors[i] += weight * _quaternion_angle(
-            w[i],
-            x[i],
-            y[i],
-            z[i],
-            cos * p0 + sin * u0,
-            cos * p1 + sin * u1,
-            cos * p2 + sin * u2,
-            cos * p3 + sin * u3,
-        )
+        s, c = sine_and_cosine((begin - first + i) * step)
+        a0, a1, a2, a3 = c * p0 + s * u0, c * p1 + s * u1, c * p2 + s * u2, c * p3 + s * u3
+        errors[i] += weight * _quaternion_angle(w[i], x[i], y[i], z[i], a0, a1, a2, a3)
 
 
-@compiled
+@compiled_fused
+def _turn(curve, first, last, begin, w, v, v_next, v_after):  # type: ignore[no-untyped-def]  # compiled
+    """Multiply quaternions, from the right, by turns about the axis of ``v``."""
+    slope = (curve[last] - curve[first]) / (last - first)
+    for i in range(w.shape[0]):
+        s, c = sine_and_cosine(curve[first] + (begin - first + i) * slope)
+        w[i], v[i] = c * w[i] - s * v[i], c * v[i] + s * w[i]
+        v_next[i], v_after[i] = c * v_next[i] + s * v_after[i], c * v_after[i] - s * v_next[i]
+
+
+@compiled_fused
 def _add_euler_errors(  # type: ignore[no-untyped-def]  # compiled
     goals, curves, axes, weight, first, last, begin, errors
 ):
     """Add one joint's weighted angles; ``curves`` is its (3, n_frames) half Euler angles."""
-    for i in range(errors.shape[0]):
-        frame = begin + i
-        share = (frame - first) / (last - first)
-        w, v = 1.0, np.zeros(3)
-        for k in range(3):
-            axis = axes[k]
-            if axis < 0:
-                break
-            half = curves[k, first] + share * (curves[k, last] - curves[k, first])
-            c, s = math.cos(half), math.sin(half)
-            # The product with (c, s·e_axis) from the right.
-            m, n = (axis + 1) % 3, (axis + 2) % 3
-            w, v[axis], v[m], v[n] = (
-                c * w - s * v[axis],
-                c * v[axis] + s * w,
-                c * v[m] + s * v[n],
-                c * v[n] - s * v[m],
-            )
-        angle = _quaternion_angle(
-            goals[0, frame],
-            goals[1, frame],
-            goals[2, frame],
-            goals[3, frame],
-            w,
-            v[0],
-            v[1],
-            v[2],
-        )
-        errors[i] += weight * angle
+    n = errors.shape[0]
+    w, v = np.ones(n), np.zeros((3, n))
+    for k in range(3):
+        axis = axes[k]
+        if axis >= 0:
+            _turn(curves[k], first, last, begin, w, v[axis], v[(axis + 1) % 3], v[(axis + 2) % 3])
+    end = begin + n
+    a, b, c, d = goals[0, begin:end], goals[1, begin:end], goals[2, begin:end], goals[3, begin:end]
+    x, y, z = v[0], v[1], v[2]
+    for i in range(n):
+        errors[i] += weight * _quaternion_angle(w[i], x[i], y[i], z[i], a[i], b[i], c[i], d[i])
 
 
 @compiled

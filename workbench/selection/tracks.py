@@ -37,7 +37,7 @@ class Track(NamedTuple):
         What interpolated frames are compared with: unit quaternions of joints (4 parts), or
         one number of each curve.
     curves : ndarray of shape (n_rows, 3, n_frames)
-        Halves of unwrapped Euler angles, in radians, where these are interpolated; else empty.
+        Halves of unwrapped Euler angles, in degrees, where these are interpolated; else empty.
     axes : ndarray of shape (n_rows, 3)
         Which axis each of these angles turns about, 0 to 2; −1 for none.
     weights : ndarray of shape (n_rows,)
@@ -90,7 +90,7 @@ def pose_track(space: Any, interpolator: str, selector: str) -> Track:
     axes = np.full((n_joints, 3), -1, dtype=np.intp)
     curves = np.zeros((n_joints, 3, n_frames if interpolator == "linear" else 0))
     if interpolator == "linear":
-        half_angles = np.radians(motion_to_euler(motion, unwrap=True).T / 2.0)
+        half_angles = motion_to_euler(motion, unwrap=True).T / 2.0
         for joint, columns in enumerate(rotation_columns(motion.skeleton)):
             order = motion.skeleton.rotation_order(joint)
             axes[joint, : len(order)] = ["XYZ".index(axis) for axis in order]
