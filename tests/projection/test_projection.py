@@ -12,12 +12,12 @@ from sklearn.datasets import load_iris, make_blobs
 from sklearn.manifold import trustworthiness
 from sklearn.utils.estimator_checks import check_estimator
 
-from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
-from workbench.projection import project, projectors, scale_to_unit_square
+from workbench.errors import AdjustmentWarning, DataError, DegenerateDataWarning, WorkbenchError
+from workbench.projection import fit_projection, project, projectors, scale_to_unit_square
 from workbench.spaces import PoseSpace, VectorSpace
 
-BUILT_IN = ["pca", "mds", "isomap", "lle", "tsne", "umap"]
-ON_DISTANCES = ["mds", "isomap", "tsne", "umap"]
+BUILT_IN = projectors.names()
+ON_DISTANCES = ["mds", "isomap", "tsne", "umap", "force"]
 
 
 @pytest.fixture(scope="module")
@@ -95,7 +95,12 @@ def test_pca_places_new_samples_on_the_map(iris):
 
 @pytest.mark.parametrize(
     ("name", "parameter"),
-    [("isomap", "n_neighbors"), ("lle", "n_neighbors"), ("tsne", "perplexity")],
+    [
+        ("isomap", "n_neighbors"),
+        ("lle", "n_neighbors"),
+        ("tsne", "perplexity"),
+        ("umap", "n_neighbors"),
+    ],
 )
 def test_parameters_too_large_for_the_data_are_lowered_and_said(name, parameter):
     """Nine samples allow neither 14 neighbours nor a perplexity of 50."""
@@ -107,10 +112,16 @@ def test_parameters_too_large_for_the_data_are_lowered_and_said(name, parameter)
 
 @pytest.mark.parametrize(
     ("name", "parameter", "value"),
-    [("isomap", "n_neighbors", 14), ("lle", "n_neighbors", 15), ("tsne", "perplexity", 50)],
+    [
+        ("isomap", "n_neighbors", 14),
+        ("lle", "n_neighbors", 15),
+        ("tsne", "perplexity", 50),
+        ("force", "n_iterations", 50),
+        ("force", "step", 8),
+    ],
 )
 def test_defaults_are_those_of_the_thesis(name, parameter, value):
-    """Costa 2018, chapter 5: 14 neighbours for Isomap, 15 for LLE, perplexity 50."""
+    """Costa 2018, chapter 5 and Alg. 7: neighbours, perplexity, iterations and step."""
     assert projectors.create(name).get_params()[parameter] == value
 
 
@@ -121,12 +132,116 @@ def test_constant_data_are_refused_alike(name):
         project(VectorSpace(np.full((20, 3), 0.1), name="flat"), name)
 
 
-def test_a_graph_in_parts_is_said():
-    """Isomap of two far clusters works and tells that it joined them."""
+@pytest.mark.parametrize("name", ["isomap", "lle", "umap"])
+def test_a_graph_in_parts_is_said(name):
+    """Two far clusters are projected all the same, and the warning counts the parts."""
     samples, _ = make_blobs([25, 25], centers=[[0, 0], [99, 99]], random_state=0)
-    with pytest.warns(DegenerateDataWarning, match="falls into parts"):
-        embedding = projectors.create("isomap", n_neighbors=5).fit_transform(samples)
+    with pytest.warns(DegenerateDataWarning, match="falls into 2 parts"):
+        embedding = projectors.create(name, n_neighbors=5).fit_transform(samples)
     assert np.isfinite(embedding).all()
+
+
+@pytest.mark.parametrize("name", [name for name in BUILT_IN if name != "pca"])
+def test_what_will_not_fit_into_memory_is_refused(monkeypatch, name):
+    """Ten million samples are too many for 10 GB; the message tells what to do instead."""
+
+    def refuse(n_bytes, what, instead):
+        if n_bytes > 10e9:
+            raise DataError(f"{what} needs {n_bytes / 1e9:.0f} GB; {instead}")
+
+    monkeypatch.setattr("workbench.projection.base.require_memory", refuse)
+    samples = np.arange(10_000_000.0)[:, None]
+    with pytest.raises(DataError, match=r"of 10000000 samples needs \d+ GB; .*in two steps"):
+        projectors.create(name).fit_transform(samples)
+
+
+@pytest.mark.parametrize("name", ["mds", "isomap", "lle", "force"])
+def test_methods_on_all_pairs_ask_for_the_memory_of_a_matrix_at_least(name):
+    """What they ask for grows with the square: no less than one matrix of distances."""
+    projector = projectors.create(name)
+    assert projector._memory((5000, 9)) >= 8 * 5000**2
+    assert projector._memory((10_000, 9)) == 4 * projector._memory((5000, 9))
+
+
+def test_pca_asks_for_the_memory_of_its_factors():
+    """It is linear in both: three times the table of samples."""
+    assert projectors.create("pca")._memory((10_000, 9)) == 3 * 8 * 10_000 * 9
+
+
+@pytest.mark.parametrize("name", ON_DISTANCES)
+@pytest.mark.parametrize(
+    ("spoil", "message"),
+    [
+        (lambda d: d[:, :-1], r"got shape \(20, 19\), want a square"),
+        (lambda d: -d, "want none below 0"),
+        (lambda d: np.triu(d), "not symmetric"),
+    ],
+    ids=["not square", "negative", "one-sided"],
+)
+def test_matrices_that_hold_no_distances_are_refused(name, spoil, message):
+    """Other shapes, signs and one-sided matrices are named."""
+    samples = np.random.default_rng(0).normal(size=(20, 3))
+    projector = projectors.create(name, metric="precomputed")
+    with pytest.raises(WorkbenchError, match=message):
+        projector.fit_transform(spoil(cdist(samples, samples)))
+
+
+@pytest.mark.parametrize("name", ["pca", "isomap", "umap"])
+def test_new_samples_are_placed_near_their_like(iris, name):
+    """Flowers that the map has not seen come to lie among their own species."""
+    new = np.arange(150) % 5 == 0
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", DegenerateDataWarning)
+        projector = projectors.create(name).fit(iris.samples[~new])
+    placed = projector.transform(iris.samples[new])
+    species = np.repeat([0, 1, 2], 50)
+    nearest = cdist(placed, projector.embedding_).argmin(axis=1)
+    assert np.mean(species[~new][nearest] == species[new]) > 0.85
+
+
+def test_pcas_inverse_is_the_nearest_point_of_its_plane(iris):
+    """Going there and back is the identity on the map and leaves the rest of the variance."""
+    projector = projectors.create("pca").fit(iris.samples)
+    rebuilt = projector.inverse_transform(projector.embedding_)
+    assert np.allclose(projector.transform(rebuilt), projector.embedding_)
+    left = np.linalg.svd(iris.samples - iris.samples.mean(axis=0), compute_uv=False)[2:]
+    assert np.linalg.norm(rebuilt - iris.samples) == pytest.approx(np.linalg.norm(left))
+
+
+@pytest.mark.filterwarnings("ignore::workbench.DegenerateDataWarning")
+def test_umaps_inverse_rebuilds_flowers(iris):
+    """Ten positions of the map give samples far nearer to theirs than the mean is."""
+    projector = projectors.create("umap", random_state=0).fit(iris.samples)
+    rebuilt = projector.inverse_transform(projector.embedding_[::15])
+    error = np.linalg.norm(rebuilt - iris.samples[::15], axis=1).mean()
+    assert error < 0.3 * iris.mean_prediction_error()
+
+
+@pytest.mark.filterwarnings("ignore::workbench.DegenerateDataWarning")
+def test_a_map_of_distances_has_no_inverse(iris):
+    """Distances do not tell what the samples are; the message says which metric does."""
+    projector = projectors.create("umap", metric="precomputed").fit(iris.distances[:40, :40])
+    with pytest.raises(WorkbenchError, match="metric: got 'precomputed', want 'euclidean'"):
+        projector.inverse_transform([[0.0, 0.0]])
+
+
+@pytest.mark.parametrize(
+    ("points", "message"),
+    [([[1.0, 2.0, 3.0]], r"shape \(1, 3\)"), ([1.0, 2.0], r"shape \(2,\)"), ([[np.nan, 0]], "nan")],
+    ids=["three dimensions", "one point", "nan"],
+)
+def test_inverses_refuse_what_are_no_positions(iris, points, message):
+    """Other shapes and gaps are named."""
+    with pytest.raises(WorkbenchError, match=f"X: got .*{message}"):
+        projectors.create("pca").fit(iris.samples).inverse_transform(points)
+
+
+def test_an_inverse_in_the_coordinates_of_the_unit_square(iris):
+    """A fitted projection tells how its scaled positions read in the projector's own."""
+    projection = fit_projection(iris, "pca")
+    rebuilt = projection.projector.inverse_transform(projection.unscaled(projection.embedding))
+    expected = projectors.create("pca").fit(iris.samples)
+    assert np.allclose(rebuilt, expected.inverse_transform(expected.embedding_), atol=1e-9)
 
 
 def test_motions_are_projected_by_their_pose_distances(waving):

@@ -26,6 +26,7 @@ projectors = Registry(
         "lle": "workbench.projection.lle:LLE",
         "tsne": "workbench.projection.tsne:TSNE",
         "umap": "workbench.projection.umap:UMAP",
+        "force": "workbench.projection.force:Force",
     },
     needs=("fit_transform",),
 )

@@ -11,14 +11,15 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator, TransformerMixin
 from sklearn.utils.validation import validate_data
 
-from workbench.errors import AdjustmentWarning, WorkbenchError
+from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
+from workbench.validation import as_numbers, finite, require_memory
 
 
 class Projector(TransformerMixin, BaseEstimator):
     """The base of projectors: validation, ``fit`` and ``fit_transform``.
 
     A subclass implements ``_project``, which may rely on finite float64 input of at least
-    two samples.
+    two samples, and ``_memory``, so that what will not fit is refused before it starts.
 
     Attributes
     ----------
@@ -71,19 +72,32 @@ class Projector(TransformerMixin, BaseEstimator):
         Returns
         -------
         ndarray of shape (n_samples, n_components)
+
+        Raises
+        ------
+        DataError
+            If the free memory does not suffice.
         """
         samples: NDArray[np.float64] = validate_data(
             self, X, dtype=np.float64, ensure_min_samples=2
         )
-        precomputed = getattr(self, "metric", None) == "precomputed"
-        if precomputed and samples.shape[0] != samples.shape[1]:
-            raise WorkbenchError(f"X: got shape {samples.shape}, want a square distance matrix")
+        if getattr(self, "metric", None) == "precomputed":
+            _check_distances(samples)
+        require_memory(
+            self._memory(samples.shape),
+            f"{type(self).__name__} of {len(samples)} samples",
+            "take a sample of them, or project in two steps (RBFP or LAMP around control points)",
+        )
         self.embedding_ = np.asarray(self._project(samples), dtype=np.float64)
         return self.embedding_
 
     @abstractmethod
     def _project(self, X: NDArray[np.float64]) -> NDArray[np.float64]:
         """Project validated samples."""
+
+    @abstractmethod
+    def _memory(self, shape: tuple[int, int]) -> float:
+        """Estimate the bytes that ``_project`` takes beside input of that shape."""
 
     def _at_most(self, name: str, limit: int | float, reason: str) -> Any:
         """Return a parameter, lowered to what the data allow, and say so if it was."""
@@ -97,6 +111,27 @@ class Projector(TransformerMixin, BaseEstimator):
         )
         return limit
 
+    def _positions(self, X: ArrayLike) -> NDArray[np.float64]:
+        """Check positions on the map, for the inverse of a projector that has one."""
+        points = as_numbers("X", X, self.embedding_.shape[1])
+        if points.ndim != 2:
+            wanted = f"(n_points, {self.embedding_.shape[1]})"
+            raise WorkbenchError(f"X: got shape {points.shape}, want {wanted}")
+        return finite(points, "X")
+
+    def _tell_parts(self, graph: Any, consequence: str) -> None:
+        """Warn if a sparse graph of neighbours falls into parts."""
+        from scipy.sparse.csgraph import connected_components
+
+        n_parts = connected_components(graph, directed=False, return_labels=False)
+        if n_parts > 1:
+            warnings.warn(
+                f"{type(self).__name__}: the graph of neighbours falls into {n_parts} parts, "
+                f"{consequence}; more neighbours may serve better",
+                DegenerateDataWarning,
+                stacklevel=4,
+            )
+
     @property
     def _n_features_out(self) -> int:
         return self.embedding_.shape[1]
@@ -106,3 +141,13 @@ class Projector(TransformerMixin, BaseEstimator):
         tags = super().__sklearn_tags__()
         tags.input_tags.pairwise = getattr(self, "metric", None) == "precomputed"
         return tags
+
+
+def _check_distances(X: NDArray[np.float64]) -> None:
+    """Refuse what is no matrix of distances."""
+    if X.shape[0] != X.shape[1]:
+        raise WorkbenchError(f"X: got shape {X.shape}, want a square distance matrix")
+    if X.min() < 0:
+        raise WorkbenchError(f"X: got a distance of {X.min()}, want none below 0")
+    if not np.array_equal(X, X.T) and not np.allclose(X, X.T):
+        raise WorkbenchError("X: got distances that are not symmetric")

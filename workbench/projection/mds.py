@@ -26,6 +26,10 @@ class MDS(Projector):
         self.n_components = n_components
         self.metric = metric
 
+    def _memory(self, shape: tuple[int, int]) -> float:
+        # Distances, their squares, the centred matrix and the solver's copy of it.
+        return 33.0 * shape[0] ** 2
+
     def _project(self, X: NDArray[np.float64]) -> NDArray[np.float64]:
         embedding: NDArray[np.float64] = ClassicalMDS(
             self.n_components, metric=self.metric

@@ -37,6 +37,10 @@ class PCA(Projector):
     def __init__(self, n_components: int = 2) -> None:
         self.n_components = n_components
 
+    def _memory(self, shape: tuple[int, int]) -> float:
+        # The centred samples and both factors.
+        return 24.0 * shape[0] * shape[1]
+
     def _project(self, X: NDArray[np.float64]) -> NDArray[np.float64]:
         # Exact, so that the result does not depend on a seed.
         model = SklearnPCA(min(self.n_components, *X.shape), svd_solver="full")
@@ -59,3 +63,24 @@ class PCA(Projector):
         check_is_fitted(self)
         samples: NDArray[np.float64] = validate_data(self, X, dtype=np.float64, reset=False)
         return (samples - self.mean_) @ self.components_.T
+
+    def inverse_transform(self, X: ArrayLike) -> NDArray[np.float64]:
+        """Rebuild samples from positions on the map: the nearest of its plane.
+
+        Parameters
+        ----------
+        X : array-like of shape (n_points, n_components)
+            Positions.
+
+        Returns
+        -------
+        ndarray of shape (n_points, n_features)
+
+        Raises
+        ------
+        WorkbenchError
+            If the positions have another dimension or are not finite.
+        """
+        check_is_fitted(self)
+        points = self._positions(X)
+        return points @ self.components_ + self.mean_

@@ -38,6 +38,10 @@ class TSNE(Projector):
         self.metric = metric
         self.random_state = random_state
 
+    def _memory(self, shape: tuple[int, int]) -> float:
+        # Sparse affinities to 3 · perplexity neighbours, in some copies.
+        return 60.0 * shape[0] * min(3.0 * self.perplexity, shape[0])
+
     def _project(self, X: NDArray[np.float64]) -> NDArray[np.float64]:
         perplexity = self._at_most("perplexity", (len(X) - 1) / 3, f"{len(X)} samples")
         embedding: NDArray[np.float64] = SklearnTSNE(
