@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from numbers import Real
 
+import numba
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
@@ -66,17 +68,21 @@ def curve_saliency(
     50
     """
     bends = np.ascontiguousarray(curve_curvature(curves, curvature).T)
-    widths = np.unique([factor * scale for scale in SCALES for factor in (1.0, 2.0)])
-    widths = check_sigma(sigma) * widths
-    centres, surrounds = (
-        np.searchsorted(widths, sigma * factor * np.array(SCALES)) for factor in (1.0, 2.0)
-    )
-    window_means = _WindowMeans(widths, bends.shape[1])
-    result = np.zeros(bends.shape)
-    for bend, saliency in zip(bends, result, strict=True):
-        means = window_means(bend)
-        _add_maps(means, centres, surrounds, _ROUNDING * bend.max(), saliency)
-    return np.ascontiguousarray(result.T)
+    sigma = check_sigma(sigma)
+    saliency = np.zeros(bends.shape)
+    # One share of the curves for each thread that compiled kernels use too.
+    n_shares = max(1, min(len(bends), numba.get_num_threads()))
+    shares = [slice(start, None, n_shares) for start in range(n_shares)]
+    with ThreadPoolExecutor(n_shares) as pool:
+        list(pool.map(lambda share: _add_saliency(bends[share], sigma, saliency[share]), shares))
+    return np.ascontiguousarray(saliency.T)
+
+
+def _add_saliency(bends: NDArray[np.float64], sigma: float, saliency: NDArray[np.float64]) -> None:
+    """Add the four maps of curves, whose curvature is given, to their saliency, in place."""
+    centre_surround = _CentreSurround(sigma, bends.shape[1])
+    for bend, total in zip(bends, saliency, strict=True):
+        _add_maps(centre_surround(bend), _ROUNDING * bend.max(), total)
 
 
 def curve_curvature(curves: ArrayLike, curvature: str = "slope") -> NDArray[np.float64]:
@@ -179,83 +185,90 @@ def check_sigma(sigma: float, name: str = "sigma") -> float:
     return float(sigma)
 
 
-class _WindowMeans:
-    """Gaussian-weighted means of a curve for several widths at once.
+class _CentreSurround:
+    """The differences G(f, σ_i) − G(f, 2σ_i) of one curve after the other.
 
     The curve is cut into overlapping blocks that fit the processor's cache, whose Fourier
-    transform serves all widths; so the time is linear in the number of frames and hardly
-    depends on σ.
+    transform serves all windows; so the time is linear in the number of frames and hardly
+    depends on σ. Where all of both windows is inside the clip, their difference is one
+    filter. In the blocks at the ends each window has a mean of its own, which counts the
+    frames inside only.
     """
 
-    def __init__(self, widths: NDArray[np.float64], n_frames: int) -> None:
+    def __init__(self, sigma: float, n_frames: int) -> None:
         from scipy.fft import next_fast_len, rfft
 
+        centres = sigma * np.array(SCALES)
+        widths = np.concatenate([centres, 2.0 * centres])
         # Weights beyond the clip never meet a frame.
-        radii = np.minimum((2.0 * widths).astype(np.intp), n_frames - 1)
-        radius = int(radii.max())
+        reaches = np.minimum((2.0 * widths).astype(np.intp), n_frames - 1)
+        radius = int(reaches.max())
         block = next_fast_len(min(max(1024, 10 * radius), n_frames + 2 * radius), True)
-        self.n_frames, self.radius, self.step = n_frames, radius, block - 2 * radius
-        self.n_blocks = -(-n_frames // self.step)
+        step = block - 2 * radius
+        n_blocks = -(-n_frames // step)
+        self.n_frames, self.radius, self.step = n_frames, radius, step
+
         kernels = np.zeros((len(widths), block))
-        inside = np.ones((len(widths), n_frames))
-        frames = np.arange(n_frames)
-        for kernel, share, width, reach in zip(kernels, inside, widths, radii, strict=True):
+        inside = np.ones((len(widths), n_blocks * step))
+        for kernel, share, width, reach in zip(kernels, inside, widths, reaches, strict=True):
             weights = np.exp(-0.5 * (np.arange(reach + 1) / width) ** 2)
             weights /= weights[0] + 2.0 * weights[1:].sum()
             kernel[: reach + 1] = weights
             kernel[block - reach :] = weights[:0:-1]
             beyond = np.cumsum(weights[:0:-1])[::-1]
-            short = frames[:reach]
-            share[short] -= beyond[short]
-            share[n_frames - 1 - short] -= beyond[short]
-        self.spectra = rfft(kernels).real  # the kernels are even
-        self.near_ends = np.flatnonzero((frames < radius) | (frames >= n_frames - radius))
-        self.share_inside = inside[:, self.near_ends]
+            share[:reach] -= beyond
+            share[n_frames - reach : n_frames] -= beyond[::-1]
+        self.windows = rfft(kernels).real  # the kernels are even
+        self.filters = self.windows[: len(SCALES)] - self.windows[len(SCALES) :]
+        # A block is longer than two windows reach, so that the clip's end is in the last two.
+        self.end_blocks = np.unique(np.clip([0, n_blocks - 2, n_blocks - 1], 0, None))
+        self.inside = inside.reshape(len(widths), n_blocks, step)[:, self.end_blocks]
+
         # Written over for each curve, because fresh pages of memory take longer than the sums.
-        self._padded = np.zeros(self.n_blocks * self.step + 2 * radius)
-        self._products = np.empty((self.n_blocks, self.spectra.shape[1]), dtype=np.complex128)
-        self._means = np.empty((len(widths), self.n_blocks, self.step))
+        self._padded = np.zeros(n_blocks * step + 2 * radius)
+        self._products = np.empty((n_blocks, self.windows.shape[1]), dtype=np.complex128)
+        self._differences = np.empty((len(SCALES), n_blocks, step))
 
     def __call__(self, curve: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Average a curve of shape (n_frames,); return (n_widths, n_frames), until the next."""
+        """Filter a curve of shape (n_frames,); return (n_scales, n_frames), until the next."""
         from scipy.fft import irfft, rfft
 
-        radius, step = self.radius, self.step
-        inside = slice(radius, radius + step)
-        self._padded[radius : radius + self.n_frames] = curve
-        blocks = np.lib.stride_tricks.sliding_window_view(self._padded, step + 2 * radius)[::step]
+        length = self.step + 2 * self.radius
+        middle = slice(self.radius, self.radius + self.step)
+        self._padded[self.radius : self.radius + self.n_frames] = curve
+        blocks = np.lib.stride_tricks.sliding_window_view(self._padded, length)[:: self.step]
         transformed = rfft(blocks)
-        for mean, spectrum in zip(self._means, self.spectra, strict=True):
+        for difference, spectrum in zip(self._differences, self.filters, strict=True):
             np.multiply(transformed, spectrum, out=self._products)
-            mean[:] = irfft(self._products, step + 2 * radius, overwrite_x=True)[:, inside]
-        means = self._means.reshape(len(self.spectra), -1)[:, : self.n_frames]
-        means[:, self.near_ends] /= self.share_inside
-        return means
+            difference[:] = irfft(self._products, length, overwrite_x=True)[:, middle]
+        at_ends = transformed[self.end_blocks] * self.windows[:, None]
+        means = irfft(at_ends, length)[..., middle] / self.inside
+        self._differences[:, self.end_blocks] = means[: len(SCALES)] - means[len(SCALES) :]
+        return self._differences.reshape(len(SCALES), -1)[:, : self.n_frames]
 
 
 @compiled
-def _add_maps(means, centres, surrounds, rounding, saliency):  # type: ignore[no-untyped-def]  # compiled
-    """Add the normalised maps |centre − surround| of one curve to its ``saliency``."""
-    n_frames = means.shape[1]
-    maps = np.empty((len(centres), n_frames))
-    lowest = np.empty(len(centres))
-    highest = np.empty(len(centres))
-    for i in range(len(centres)):
-        centre, surround, row = means[centres[i]], means[surrounds[i]], maps[i]
+def _add_maps(differences, rounding, saliency):  # type: ignore[no-untyped-def]  # compiled
+    """Add the normalised absolute values of a curve's differences to its saliency."""
+    n_maps, n_frames = differences.shape
+    lowest = np.empty(n_maps)
+    highest = np.empty(n_maps)
+    for i in range(n_maps):
+        row = differences[i]
         low, high = np.inf, 0.0
         for f in range(n_frames):
-            value = abs(centre[f] - surround[f])
+            value = abs(row[f])
             if value <= rounding:
                 value = 0.0
             row[f] = value
             low, high = min(low, value), max(high, value)
         lowest[i], highest[i] = low, high
     largest = highest.max()
-    for i in range(len(centres)):
+    for i in range(n_maps):
         spread = highest[i] - lowest[i]
         if spread <= 0.0:
             continue
-        row = maps[i]
+        row = differences[i]
         # A peak is a run of equal values with lower ones on both sides, or with the clip's end.
         n_peaks, peaks, rising = 0, 0.0, True
         for f in range(n_frames):

@@ -182,7 +182,8 @@ def motion_saliency(
     components, eigenvalues, explained = _principal_curves(
         array, n_components, n_feet, variance, standardize
     )
-    heights = _centred(heights, standardize=True)
+    spreads = heights.std(axis=0)
+    heights = (heights - heights.mean(axis=0)) / np.where(spreads > 0, spreads, 1.0)
     saliency = np.concatenate(
         [
             curve_saliency(components, sigma, curvature=curvature),
@@ -231,12 +232,18 @@ def _principal_curves(
     ):
         beyond = f" beside the {n_feet} of the feet" if n_feet else ""
         raise WorkbenchError(f"n_components: got {n_curves!r}, want at least 1{beyond}")
-    spreads = np.ptp(values, axis=0)
-    varying = values[:, spreads > _CONSTANT * np.abs(values).max(initial=0.0)]
-    if not varying.shape[1]:
+    lowest, highest = values.min(axis=0), values.max(axis=0)
+    largest = max(-lowest.min(initial=0.0), highest.max(initial=0.0))
+    varies = highest - lowest > _CONSTANT * largest
+    if not varies.any():
         return np.empty((len(values), 0)), np.empty(0), 0.0
-    centred = _centred(varying, standardize)
-    eigenvalues, vectors = np.linalg.eigh(centred.T @ centred / len(centred))
+    centred = values - values.mean(axis=0)
+    if not varies.all():
+        centred = centred[:, varies]
+    covariance = centred.T @ centred / len(centred)
+    # Columns are standardised by what they are multiplied with: the array is large.
+    scales = 1.0 / np.sqrt(covariance.diagonal()) if standardize else np.ones(len(covariance))
+    eigenvalues, vectors = np.linalg.eigh(covariance * scales * scales[:, None])
     eigenvalues, vectors = eigenvalues[::-1], vectors[:, ::-1]
     rank = int(np.count_nonzero(eigenvalues > _CONSTANT * eigenvalues[0]))
     shares = np.cumsum(eigenvalues[:rank]) / eigenvalues[:rank].sum()
@@ -250,15 +257,8 @@ def _principal_curves(
             stacklevel=3,
         )
     kept = min(max(1, n_curves - n_feet), rank)
-    return centred @ vectors[:, :kept], eigenvalues[:kept], float(shares[kept - 1])
-
-
-def _centred(values: NDArray[np.float64], standardize: bool) -> NDArray[np.float64]:
-    centred = values - values.mean(axis=0)
-    if standardize:
-        spreads = values.std(axis=0)
-        centred /= np.where(spreads > 0, spreads, 1.0)
-    return centred
+    curves = centred @ (scales[:, None] * vectors[:, :kept])
+    return curves, eigenvalues[:kept], float(shares[kept - 1])
 
 
 def _cluster(
@@ -295,7 +295,8 @@ def _cluster(
     means = np.bincount(cluster, votes * offsets) / np.bincount(cluster, votes)
     # Rounded, so that of two frames as near as each other the earlier is taken everywhere.
     away = np.where(votes > 0, np.abs(offsets - means[cluster]).round(9), np.inf)
-    nearest = np.lexsort((away, cluster))[starts]
+    nearest = np.flatnonzero(away == np.minimum.reduceat(away, starts)[cluster])
+    nearest = nearest[np.searchsorted(cluster[nearest], np.arange(len(starts)))]
     return np.stack([frames[starts], frames[ends]], axis=1), frames[nearest]
 
 
