@@ -98,31 +98,29 @@ def _nearest_rotation(m):  # type: ignore[no-untyped-def]  # compiled
     a, b, c = m[0, 0], m[0, 1], m[0, 2]
     d, e, f = m[1, 0], m[1, 1], m[1, 2]
     g, h, i = m[2, 0], m[2, 1], m[2, 2]
-    norm2 = a * a + b * b + c * c + d * d + e * e + f * f + g * g + h * h + i * i
-    for iteration in range(12):
+    # The mean squared singular value, and the determinant of a scaled rotation of that norm.
+    # Sums are written as trees, which the processor adds up side by side.
+    size2 = ((a * a + b * b) + (c * c + d * d) + ((e * e + f * f) + (g * g + h * h)) + i * i) / 3.0
+    size = math.sqrt(size2)
+    det = a * (e * i - f * h) + b * (f * g - d * i) + c * (d * h - e * g)
+    if not det > 0.05 * size2 * size:
+        return _nearest_rotation_by_quaternion(m)
+    # Without the size, which Newton is slow at. np.divide spares the check for a zero.
+    scale = np.divide(1.0, size)
+    a, b, c = a * scale, b * scale, c * scale
+    d, e, f = d * scale, e * scale, f * scale
+    g, h, i = g * scale, h * scale, i * scale
+    for _ in range(12):
         ca, cb, cc = e * i - f * h, f * g - d * i, d * h - e * g
-        det = a * ca + b * cb + c * cc
-        # det relative to (norm / sqrt 3)³, the determinant of a scaled rotation of that norm.
-        if iteration == 0 and not det > 0.05 * (norm2 / 3.0) ** 1.5:
-            break
         cd, ce, cf = c * h - b * i, a * i - c * g, b * g - a * h
         cg, ch, ci = b * f - c * e, c * d - a * f, a * e - b * d
-        # Scaling by det^(-1/3) first removes the size, which Newton is slow at.
-        size = det ** (-1.0 / 3.0) if iteration == 0 else 1.0
-        inverse = 0.5 / (det * size)
-        half = 0.5 * size
-        na, nb, nc = half * a + inverse * ca, half * b + inverse * cb, half * c + inverse * cc
-        nd, ne, nf = half * d + inverse * cd, half * e + inverse * ce, half * f + inverse * cf
-        ng, nh, ni = half * g + inverse * cg, half * h + inverse * ch, half * i + inverse * ci
+        inverse = np.divide(0.5, a * ca + b * cb + c * cc)
+        na, nb, nc = 0.5 * a + inverse * ca, 0.5 * b + inverse * cb, 0.5 * c + inverse * cc
+        nd, ne, nf = 0.5 * d + inverse * cd, 0.5 * e + inverse * ce, 0.5 * f + inverse * cf
+        ng, nh, ni = 0.5 * g + inverse * cg, 0.5 * h + inverse * ch, 0.5 * i + inverse * ci
         change = (
-            abs(na - a)
-            + abs(nb - b)
-            + abs(nc - c)
-            + abs(nd - d)
-            + abs(ne - e)
-            + abs(nf - f)
-            + abs(ng - g)
-            + abs(nh - h)
+            ((abs(na - a) + abs(nb - b)) + (abs(nc - c) + abs(nd - d)))
+            + ((abs(ne - e) + abs(nf - f)) + (abs(ng - g) + abs(nh - h)))
             + abs(ni - i)
         )
         a, b, c, d, e, f, g, h, i = na, nb, nc, nd, ne, nf, ng, nh, ni
