@@ -12,8 +12,8 @@ from workbench.errors import DegenerateDataWarning, WorkbenchError
 from workbench.spaces import Space, check_space
 from workbench.validation import as_embedding, control_point_indices, finite
 
-# Entries of the table of distances of one block, which bounds its memory to some 30 MB.
-_BLOCK_ENTRIES = 4_000_000
+# Entries of the table of distances of one block: 2 MB, so that it stays in a core's cache.
+_BLOCK_ENTRIES = 250_000
 
 
 class ControlPointProjector(ABC):

@@ -86,6 +86,8 @@ class UMAP(Projector):
     def transform(self, X: ArrayLike) -> NDArray[np.float64]:
         """Place samples on the existing map.
 
+        Their places are found together, and depend on which samples are placed at once.
+
         Parameters
         ----------
         X : array-like of shape (n_samples, n_features)
