@@ -139,10 +139,13 @@ def test_a_motion_that_stands_still_keeps_its_ends(still):
     assert np.ptp(np.diff(found)) <= 1
 
 
+@pytest.mark.filterwarnings(
+    "ignore::workbench.errors.DegenerateDataWarning"  # within a huge window all is alike
+)
 def test_short_motions_can_be_selected_from(waving):
     """Three frames are enough, with any σ."""
     short = PoseSpace(waving[10:13])
-    for sigma in (1, 10, 1000):
+    for sigma in (1, 10, 1e200):
         keys = Saliency(sigma=sigma).select(short).tolist()
         assert keys[0] == 0
         assert keys[-1] == 2

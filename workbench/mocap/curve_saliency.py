@@ -201,7 +201,7 @@ class _CentreSurround:
         centres = sigma * np.array(SCALES)
         widths = np.concatenate([centres, 2.0 * centres])
         # Weights beyond the clip never meet a frame.
-        reaches = np.minimum((2.0 * widths).astype(np.intp), n_frames - 1)
+        reaches = np.minimum(2.0 * widths, n_frames - 1).astype(np.intp)
         radius = int(reaches.max())
         block = next_fast_len(min(max(1024, 10 * radius), n_frames + 2 * radius), True)
         step = block - 2 * radius
