@@ -19,6 +19,7 @@ selectors = Registry(
         "scs": "workbench.selection.scs:SimpleCurveSimplification",
         "pb": "workbench.selection.pb:PositionBased",
         "chord": "workbench.selection.chord:ChordSimplification",
+        "rols": "workbench.selection.rols:RegularizedOrthogonalLeastSquares",
         "optimal": "workbench.selection.optimal:Optimal",
         "saliency": "workbench.selection.saliency:Saliency",
     },
