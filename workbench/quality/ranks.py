@@ -88,12 +88,18 @@ def count_by_blocks(
     largest = int(sizes.max())
     for start in range(0, n_samples, _BLOCK):
         stop = min(start + _BLOCK, n_samples)
-        sides = []
-        for rows, unit in zip((data, points), units, strict=True):
-            keys = _keys(rows(start, stop), start, unit, n_bits)
-            sides += [keys, _smallest(keys, largest)]
+        data_keys = _keys(data(start, stop), start, units[0], n_bits)
+        point_keys = _keys(points(start, stop), start, units[1], n_bits)
         counts = np.empty((4, stop - start, len(sizes)), dtype=np.int64)
-        _count_rows(*sides, mask, sizes, counts)
+        _count_rows(
+            data_keys,
+            _smallest(data_keys, largest),
+            point_keys,
+            _smallest(point_keys, largest),
+            mask,
+            sizes,
+            counts,
+        )
         yield Counts(*counts)
 
 

@@ -7,8 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike
 
-from workbench.quality.neighborhoods import default_neighborhood_size, neighborhood_quality
-from workbench.quality.stress import scale_normalized_stress, stress
+from workbench.quality.inputs import as_points
+from workbench.quality.neighborhoods import (
+    default_neighborhood_size,
+    matrix_neighborhood_quality,
+)
+from workbench.quality.stress import pair_sums
+from workbench.validation import as_distances
 
 
 @dataclass(frozen=True)
@@ -54,12 +59,14 @@ def embedding_quality(distances: ArrayLike, embedding: ArrayLike) -> EmbeddingQu
     WorkbenchError
         If the shapes do not fit or all points coincide.
     """
-    plain = stress(distances, embedding)
-    k = default_neighborhood_size(len(np.asarray(embedding)))
-    near = neighborhood_quality(distances, embedding, k)
+    points = as_points(embedding)
+    data = as_distances(distances, len(points))
+    k = default_neighborhood_size(len(points))
+    sums = pair_sums(data, points)
+    near = matrix_neighborhood_quality(data, points, np.array([k]))
     return EmbeddingQuality(
-        stress=plain,
-        scale_normalized_stress=scale_normalized_stress(distances, embedding),
+        stress=sums.stress,
+        scale_normalized_stress=sums.scale_normalized,
         trustworthiness=float(near.trustworthiness[0]),
         continuity=float(near.continuity[0]),
         neighborhood_preservation=float(near.preservation[0]),
