@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
+from workbench.mocap.distances import position_distance_pairs
 from workbench.mocap.kinematics import forward_kinematics, root_relative_positions
 from workbench.mocap.motion import Motion
 
@@ -36,6 +37,46 @@ def position_error(motion: Motion, rotations: NDArray[np.float64]) -> float:
     return float(np.linalg.norm(original - rebuilt, axis=2).mean())
 
 
+def position_distances(
+    motion: Motion, rotations: ArrayLike, weights: ArrayLike | None = None
+) -> NDArray[np.float64]:
+    """Measure D_p between each frame and its reconstruction (Costa 2018, Eq. 3.1).
+
+    D_p(A, B) = Σ_j w_j · ‖P(A_j) − P(B_j)‖² with positions relative to the root's, whose
+    path a reconstruction takes from the original; its rotation counts.
+
+    Parameters
+    ----------
+    motion : Motion
+        The original.
+    rotations : array-like of shape (n_frames, n_joints, 3, 3)
+        Rebuilt rotations.
+    weights : array-like of shape (n_joints,), optional
+        Joint weights; 1 for every joint by default.
+
+    Returns
+    -------
+    ndarray of shape (n_frames,)
+        In squared file units; its mean is the D_p error of the reconstruction.
+
+    Raises
+    ------
+    WorkbenchError
+        If the rotations or the weights do not fit the motion.
+    """
+    if np.shape(rotations) != np.shape(motion.rotations):
+        raise WorkbenchError(
+            f"rotations: got shape {np.shape(rotations)}, want {np.shape(motion.rotations)}"
+        )
+    rebuilt = forward_kinematics(
+        motion.skeleton, rotations, joint_translations=motion.joint_translations
+    )
+    joint_weights = np.ones(motion.skeleton.n_joints) if weights is None else weights
+    return position_distance_pairs(
+        root_relative_positions(motion), rebuilt, np.asarray(joint_weights, dtype=np.float64)
+    )
+
+
 def compression_ratio(
     n_frames: int, n_keyframes: int, n_joints: int, *, n_coordinates: int = 0
 ) -> float:
@@ -60,13 +101,18 @@ def compression_ratio(
     Raises
     ------
     WorkbenchError
-        If there are no frames or more keyframes than frames.
+        If there are no frames, no joints, or more keyframes than frames.
 
     Examples
     --------
     >>> round(100 / compression_ratio(100_000, 3000, 31), 2)
     6.06
     """
+    if n_joints < 1 or n_coordinates < 0:
+        raise WorkbenchError(
+            f"n_joints and n_coordinates: got {n_joints} and {n_coordinates}, "
+            "want at least 1 and at least 0"
+        )
     if not 0 < n_keyframes <= n_frames:
         raise WorkbenchError(f"n_keyframes: got {n_keyframes}, want from 1 to {n_frames}")
     original = n_frames * (3 * n_joints + 3)
