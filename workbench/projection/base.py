@@ -19,7 +19,8 @@ class Projector(TransformerMixin, BaseEstimator):
     """The base of projectors: validation, ``fit`` and ``fit_transform``.
 
     A subclass implements ``_project``, which may rely on finite float64 input of at least
-    two samples, and ``_memory``, so that what will not fit is refused before it starts.
+    two samples. One that takes much memory implements ``_memory`` too, so that what will
+    not fit is refused before it starts.
 
     Attributes
     ----------
@@ -95,9 +96,12 @@ class Projector(TransformerMixin, BaseEstimator):
     def _project(self, X: NDArray[np.float64]) -> NDArray[np.float64]:
         """Project validated samples."""
 
-    @abstractmethod
-    def _memory(self, shape: tuple[int, int]) -> float:
+    def _memory(
+        self,
+        shape: tuple[int, int],  # noqa: ARG002 - for those that take memory
+    ) -> float:
         """Estimate the bytes that ``_project`` takes beside input of that shape."""
+        return 0.0
 
     def _at_most(self, name: str, limit: int | float, reason: str) -> Any:
         """Return a parameter, lowered to what the data allow, and say so if it was."""
