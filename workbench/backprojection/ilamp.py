@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import warnings
 
 import numpy as np
 from numba import prange
@@ -11,8 +10,8 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator, MultiOutputMixin, RegressorMixin
 
 from workbench.backprojection.checking import at_most, control_points, empty_result, positions
-from workbench.backprojection.rbf_system import merge_coinciding
-from workbench.errors import DegenerateDataWarning, WorkbenchError
+from workbench.backprojection.places import merge_coinciding
+from workbench.errors import WorkbenchError
 from workbench.kernels import compiled, compiled_parallel
 
 #: Points whose neighbours are looked up at once.
@@ -208,13 +207,7 @@ class ILAMP(MultiOutputMixin, RegressorMixin, BaseEstimator):
         points, values = control_points(self, X, y)
         self._single_output = values.ndim == 1
         places = merge_coinciding(points, values.reshape(len(points), -1))
-        if places.contradicting:
-            warnings.warn(
-                f"{len(points) - len(places.points)} control points coincide with others but "
-                "have different samples; each place gets the mean of its samples",
-                DegenerateDataWarning,
-                stacklevel=2,
-            )
+        places.warn_if_contradicting()
         self.n_neighbors_ = min(at_most(self, "n_neighbors", len(points)), len(places.points))
         self.centers_ = np.ascontiguousarray(places.points)
         self.values_ = np.ascontiguousarray(places.values)

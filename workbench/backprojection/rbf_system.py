@@ -7,86 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from workbench.backprojection.places import Places
 from workbench.backprojection.radial import KERNELS, RadialKernel, kernel_matrix
-
-
-@dataclass(frozen=True)
-class Places:
-    """Control points at different places.
-
-    Attributes
-    ----------
-    points : ndarray of shape (n_places, n_dimensions)
-        The places.
-    values : ndarray of shape (n_places, n_outputs)
-        Mean sample of the control points at each.
-    counts : ndarray of shape (n_places,)
-        How many control points it stands for.
-    contradicting : bool
-        Whether control points at one place had different samples.
-    """
-
-    points: NDArray[np.float64]
-    values: NDArray[np.float64]
-    counts: NDArray[np.float64]
-    contradicting: bool
-
-
-def merge_coinciding(points: NDArray[np.float64], values: NDArray[np.float64]) -> Places:
-    """Replace control points at the same place by one with their mean sample.
-
-    Points closer than 1e-12 of the cloud's extent count as the same: no weights could
-    tell them apart in double precision. The mean with its count says all that least
-    squares needs to know of them.
-
-    Parameters
-    ----------
-    points : ndarray of shape (n_control_points, n_dimensions)
-        Positions.
-    values : ndarray of shape (n_control_points, n_outputs)
-        Samples there.
-
-    Returns
-    -------
-    Places
-    """
-    extent = float(np.ptp(points, axis=0).max()) or 1.0
-    keys = np.round((points - points.min(axis=0)) / (1e-12 * extent))
-    _, first, group = np.unique(keys, axis=0, return_index=True, return_inverse=True)
-    if len(first) == len(points):
-        return Places(points, values, np.ones(len(points)), contradicting=False)
-    group = group.ravel()
-    counts = np.bincount(group).astype(np.float64)
-    # Relative to the first sample of each place, so that equal ones keep their value.
-    sums = np.zeros((len(first), values.shape[1]))
-    np.add.at(sums, group, values - values[first][group])
-    means = values[first] + sums / counts[:, None]
-    return Places(points[first], means, counts, not np.allclose(means[group], values))
-
-
-def spread_out(points: NDArray[np.float64], count: int) -> NDArray[np.intp]:
-    """Choose points that cover the cloud, each the farthest from those chosen before.
-
-    The first is the one nearest to the mean.
-
-    Parameters
-    ----------
-    points : ndarray of shape (n_points, n_dimensions)
-        Candidates.
-    count : int
-        How many to choose.
-
-    Returns
-    -------
-    ndarray of shape (count,)
-        Sorted indices.
-    """
-    chosen = [int(((points - points.mean(axis=0)) ** 2).sum(axis=1).argmin())]
-    gaps = ((points - points[chosen[0]]) ** 2).sum(axis=1)
-    while len(chosen) < count:
-        chosen.append(int(gaps.argmax()))
-        np.minimum(gaps, ((points - points[chosen[-1]]) ** 2).sum(axis=1), out=gaps)
-    return np.sort(chosen)
+from workbench.validation import require_memory
 
 
 def solve(
@@ -120,6 +43,11 @@ def solve(
     weights : ndarray of shape (n_centers, n_outputs)
     polynomial : ndarray of shape (n_dimensions + 1, n_outputs)
         The constant, then one row for each dimension.
+
+    Raises
+    ------
+    DataError
+        If memory will not suffice for the matrix.
     """
     # Centred and scaled, so that the polynomial part is as well conditioned as can be.
     points = places.points
@@ -132,6 +60,11 @@ def solve(
     base = places.values[0]
     values = places.values - base
 
+    require_memory(
+        40.0 * len(points) * len(nodes),
+        f"radial basis functions with {len(nodes)} centres for {len(points)} control points",
+        "take fewer centres (`centers`) or fewer control points",
+    )
     matrix = kernel_matrix(kernel, scaled_epsilon, points, nodes)
     if len(nodes) == len(points):
         weights, coefficients = _interpolate(
@@ -159,12 +92,11 @@ def _interpolate(
     smoothing: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Solve (K + sign·Λ) w + P b = y with Pᵀ w = 0, for the b of smallest norm."""
-    left, singular, right, free = _polynomial_spaces(nodes)
+    polynomial = _PolynomialAtNodes.of(nodes)
     system = sign * matrix
     system[np.diag_indices_from(system)] += smoothing
-    weights = _solve_definite(free, system, values)
-    rest = left.T @ (values - system @ weights)
-    return sign * weights, right.T @ (rest / singular[:, None])
+    weights = _solve_definite(polynomial, system, values)
+    return sign * weights, polynomial.coefficients(values - system @ weights)
 
 
 def _least_squares(
@@ -178,50 +110,108 @@ def _least_squares(
     counts: NDArray[np.float64],
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Minimise ‖√n (K w + P b − y)‖² + λ wᵀ (sign·K_nodes) w with w unseen by P at the nodes."""
-    _, _, _, free = _polynomial_spaces(nodes)
-    n_free = free.shape[1]
+    polynomial = _PolynomialAtNodes.of(nodes)
+    n_unseen = len(nodes) - polynomial.rank
     emphasis = np.sqrt(counts)[:, None]
-    design = np.hstack([matrix @ free, np.ones((len(points), 1)), points]) * emphasis
+    design = np.hstack([polynomial.unseen(matrix.T).T, np.ones((len(points), 1)), points])
+    design *= emphasis
     wanted = values * emphasis
-    if smoothing > 0 and n_free:
-        energy, directions = np.linalg.eigh(sign * (free.T @ among @ free))
-        penalty = np.sqrt(smoothing * np.maximum(energy, 0.0))[:, None] * directions.T
-        rows = np.zeros((n_free, design.shape[1]))
-        rows[:, :n_free] = penalty
-        design = np.vstack([design, rows])
-        wanted = np.vstack([wanted, np.zeros((n_free, values.shape[1]))])
-    solution = np.linalg.lstsq(design, wanted, rcond=1e-13)[0]
-    return free @ solution[:n_free], solution[n_free:]
+    if smoothing > 0 and n_unseen:
+        energy, directions = np.linalg.eigh(sign * polynomial.unseen(polynomial.unseen(among).T))
+        penalty = np.zeros((n_unseen, design.shape[1]))
+        strength = np.sqrt(smoothing * np.maximum(energy, 0.0))
+        penalty[:, :n_unseen] = strength[:, None] * directions.T
+        design = np.vstack([design, penalty])
+        wanted = np.vstack([wanted, np.zeros((n_unseen, values.shape[1]))])
+    solution = _least_norm(design, wanted, 1e-13)
+    return polynomial.expanded(solution[:n_unseen]), solution[n_unseen:]
 
 
-def _polynomial_spaces(
-    nodes: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Decompose the polynomial basis at the nodes; collinear ones leave it a lower rank.
+@dataclass(frozen=True)
+class _PolynomialAtNodes:
+    """The linear polynomials at the nodes, and the weights that they do not see.
 
-    Gives its left singular vectors (n, rank), singular values (rank,), right singular
-    vectors (rank, d + 1), and a basis of the weights that it does not see (n, n − rank).
+    The singular value decomposition of the basis 1, x at the nodes has the rank d + 1, or
+    less if the nodes are collinear. A block reflector H = I − W (I + P)⁻¹ Wᵀ, symmetric and
+    orthogonal, turns its range into the first unit vectors (Schreiber & Parlett 1988), so
+    that the other columns of H span the weights it does not see, without ever being formed.
+
+    Attributes
+    ----------
+    left : ndarray of shape (n, rank)
+        Left singular vectors.
+    singular : ndarray of shape (rank,)
+        Singular values.
+    right : ndarray of shape (rank, d + 1)
+        Right singular vectors.
+    reflector : ndarray of shape (n, rank)
+        W.
+    middle : ndarray of shape (rank, rank)
+        (I + P)⁻¹.
     """
-    polynomial = np.column_stack([np.ones(len(nodes)), nodes])
-    left, singular, right = np.linalg.svd(polynomial, full_matrices=True)
-    rank = int(np.sum(singular > 1e-10 * singular[0]))
-    return left[:, :rank], singular[:rank], right[:rank], left[:, rank:]
+
+    left: NDArray[np.float64]
+    singular: NDArray[np.float64]
+    right: NDArray[np.float64]
+    reflector: NDArray[np.float64]
+    middle: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, nodes: NDArray[np.float64]) -> _PolynomialAtNodes:
+        """Decompose the basis at nodes (n, d)."""
+        basis = np.column_stack([np.ones(len(nodes)), nodes])
+        left, singular, right = np.linalg.svd(basis, full_matrices=False)
+        rank = int(np.sum(singular > 1e-10 * singular[0]))
+        left = left[:, :rank]
+        u, stretch, v = np.linalg.svd(left[:rank])
+        reflector = left.copy()
+        reflector[:rank] += u @ v
+        middle = v.T @ (v / (1.0 + stretch)[:, None])
+        return cls(left, singular[:rank], right[:rank], reflector, middle)
+
+    @property
+    def rank(self) -> int:
+        """Number of polynomials that differ at the nodes."""
+        return len(self.singular)
+
+    def coefficients(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Fit the polynomial of smallest norm: (n, n_outputs) to (d + 1, n_outputs)."""
+        return self.right.T @ ((self.left.T @ values) / self.singular[:, None])
+
+    def unseen(self, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Express columns by the weights it does not see: (n, m) to (n − rank, m)."""
+        return self._reflected(matrix)[self.rank :]
+
+    def expanded(self, unseen: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Give the weights themselves: (n − rank, m) to (n, m)."""
+        return self._reflected(np.vstack([np.zeros((self.rank, unseen.shape[1])), unseen]))
+
+    def _reflected(self, matrix: NDArray[np.float64]) -> NDArray[np.float64]:
+        return matrix - self.reflector @ (self.middle @ (self.reflector.T @ matrix))
 
 
 def _solve_definite(
-    free: NDArray[np.float64], system: NDArray[np.float64], values: NDArray[np.float64]
+    polynomial: _PolynomialAtNodes, system: NDArray[np.float64], values: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """Solve within the span of ``free``, where the system is positive definite, refined once."""
+    """Solve among the unseen weights, where the system is positive definite, refined once."""
     from scipy.linalg import cho_factor, cho_solve
 
-    if free.shape[1] == 0:
+    if polynomial.rank == len(values):
         return np.zeros_like(values)
-    matrix = free.T @ system @ free
+    matrix = polynomial.unseen(polynomial.unseen(system).T)
+    wanted = polynomial.unseen(values)
     try:
         factor = cho_factor(matrix)
     except np.linalg.LinAlgError:
         # Control points so close that rounding makes the matrix indefinite.
-        return free @ np.linalg.lstsq(matrix, free.T @ values, rcond=None)[0]
-    weights = free @ cho_solve(factor, free.T @ values)
-    residual = free.T @ (values - system @ weights)
-    return weights + free @ cho_solve(factor, residual)
+        return polynomial.expanded(_least_norm(matrix, wanted, None))
+    weights = polynomial.expanded(cho_solve(factor, wanted))
+    residual = polynomial.unseen(values - system @ weights)
+    return weights + polynomial.expanded(cho_solve(factor, residual))
+
+
+def _least_norm(
+    matrix: NDArray[np.float64], values: NDArray[np.float64], cutoff: float | None
+) -> NDArray[np.float64]:
+    """Solve by least squares, for the solution of smallest norm."""
+    return np.asarray(np.linalg.lstsq(matrix, values, rcond=cutoff)[0], dtype=np.float64)
