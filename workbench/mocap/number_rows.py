@@ -13,10 +13,20 @@ from workbench.errors import MotionFormatError
 from workbench.kernels import compiled, compiled_parallel
 from workbench.mocap.textfile import lines_of, parse_number, quoted
 
+_END = -1  # stands where the text has ended
 _PART = 1 << 16  # bytes that a thread reads at once
 
 _DONE, _HARD = 0, 1  # what the scanner returns; anything else is a fault
 _POWERS = 10.0 ** np.arange(23)  # every one of them is exact
+
+
+@compiled
+def _byte(data, position):  # type: ignore[no-untyped-def]  # compiled
+    """Give the byte at a position, or a mark behind the last one."""
+    if position < len(data):
+        # A signed index might count from the end, and asking that costs a quarter of the time.
+        return np.int64(data[np.uint64(position)])
+    return np.int64(_END)
 
 
 @compiled
@@ -33,9 +43,11 @@ def _scan(  # type: ignore[no-untyped-def]  # compiled
     """
     size = len(data)
     while True:
-        while position < size and (data[position] == 32 or data[position] == 9):
+        byte = _byte(data, position)
+        while byte == 32 or byte == 9:
             position += 1
-        if position == size or data[position] == 10 or data[position] == 13:
+            byte = _byte(data, position)
+        if byte == 10 or byte == 13 or byte == _END:
             if index % n_columns != 0:
                 return position, index, 2
             if position == size:
@@ -47,40 +59,45 @@ def _scan(  # type: ignore[no-untyped-def]  # compiled
         if (mid_line and index % n_columns == 0) or index == len(values):
             return position, index, 2
         start = position
-        negative = data[position] == 45
-        if negative or data[position] == 43:
+        negative = byte == 45
+        if negative or byte == 43:
             position += 1
+            byte = _byte(data, position)
         mantissa, n_digits, exponent = np.int64(0), -position, 0
-        while position < size and 48 <= data[position] <= 57:
-            mantissa = mantissa * 10 + (data[position] - 48)
+        while 48 <= byte <= 57:
+            mantissa = mantissa * 10 + (byte - 48)
             position += 1
-        if position < size and data[position] == 46:
+            byte = _byte(data, position)
+        if byte == 46:
             position += 1
             n_digits -= 1  # the point is none
             exponent = position
-            while position < size and 48 <= data[position] <= 57:
-                mantissa = mantissa * 10 + (data[position] - 48)
+            byte = _byte(data, position)
+            while 48 <= byte <= 57:
+                mantissa = mantissa * 10 + (byte - 48)
                 position += 1
+                byte = _byte(data, position)
             exponent -= position
         n_digits += position
         if n_digits == 0:
             return start, index, 2
-        if position < size and (data[position] == 101 or data[position] == 69):
+        if byte == 101 or byte == 69:
             position += 1
-            downwards = position < size and data[position] == 45
-            if downwards or (position < size and data[position] == 43):
+            byte = _byte(data, position)
+            downwards = byte == 45
+            if downwards or byte == 43:
                 position += 1
-            if position == size or not 48 <= data[position] <= 57:
+                byte = _byte(data, position)
+            if not 48 <= byte <= 57:
                 return start, index, 2
             written = 0
-            while position < size and 48 <= data[position] <= 57:
-                written = min(written * 10 + (data[position] - 48), 10000)
+            while 48 <= byte <= 57:
+                written = min(written * 10 + (byte - 48), 10000)
                 position += 1
+                byte = _byte(data, position)
             exponent += -written if downwards else written
-        if position < size:
-            after = data[position]
-            if after != 32 and after != 9 and after != 10 and after != 13:
-                return start, index, 2
+        if byte != 32 and byte != 9 and byte != 10 and byte != 13 and byte != _END:
+            return start, index, 2
         if n_digits > 18 or mantissa > 9007199254740992 or exponent < -22 or exponent > 22:
             return start, index, 1
         value = float(mantissa)
