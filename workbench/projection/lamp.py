@@ -28,7 +28,8 @@ class LAMP(ControlPointProjector):
       distances between positions to those between the features of the control points.
     - For poses d is D_q, as in all other steps, and the features that M acts on are the
       nine matrix entries of each joint. Weights from √D_q or from the distance of the
-      entries gave larger errors on the clip 05_10, whatever the seed projector.
+      entries gave larger reconstruction errors on the clip 05_10 with each of three seed
+      projectors (no difference after optimization).
     - Directions that control points leave undetermined, such as that across collinear
       positions, are left out of M, so that nothing moves along them.
 
