@@ -53,4 +53,6 @@ def measurements() -> Iterator[Measurement]:
         f"all usual quality values of an embedding from its distances, n = {_N}",
         lambda: embedding_quality(distances, embedding),
         below=2,
+        note="half of the time and all of the memory go into checking that the distances are "
+        "a symmetric matrix",
     )

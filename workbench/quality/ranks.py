@@ -21,7 +21,7 @@ from workbench.kernels import compiled, compiled_parallel
 TIE = 1e-10
 
 # Rows of distances at once, which bounds the memory.
-_BLOCK = 128
+_BLOCK = 64
 
 # Adding and taking away 1.5 · 2**52 rounds to the nearest whole number, up to 2**51.
 _TO_WHOLE = 6755399441055744.0
