@@ -34,8 +34,9 @@ from numpy.typing import NDArray
 
 from workbench.kernels import compiled, compiled_parallel
 from workbench.selection.splitting import split_at_worst
-from workbench.selection.track_errors import BLOCK, errors_between, frame_errors
+from workbench.selection.track_errors import BLOCK, frame_errors
 from workbench.selection.tracks import Track
+from workbench.selection.worst_frames import WorstFrames
 
 # Sums of the same errors in another order differ by rounding, which must not cut a path off.
 _ROUNDING = 1.0 + 1e-9
@@ -90,7 +91,7 @@ def _greedy_bounds(
     track: Track, stops: NDArray[np.intp], max_count: int, largest: bool
 ) -> NDArray[np.float64]:
     """Compute the costs of SCS for every number of legs; −inf for numbers out of question."""
-    order = split_at_worst(lambda a, b: errors_between(track, a, b), stops, max_count)
+    order = split_at_worst(WorstFrames(track).between, stops, max_count)
     bounds = np.full(max_count, -np.inf)
     for count in range(len(stops), max_count + 1):
         keys = np.sort(order[:count])

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from workbench.errors import WorkbenchError
 from workbench.mocap.channels import motion_to_euler
 from workbench.selection.base import Selector, fixed_samples
-from workbench.selection.splitting import split_at_worst
+from workbench.selection.splitting import split_at_worst, worst_of
 from workbench.selection.tracks import check_curves, motion_of, with_ends
 from workbench.spaces import Space
 from workbench.validation import control_point_count
@@ -132,7 +132,7 @@ def _split(
     if time_weight:
         curves = np.column_stack([curves, time_weight * np.arange(len(curves))])
 
-    def distances(first: int, last: int) -> NDArray[np.float64]:
+    def worst_between(first: int, last: int) -> tuple[float, int]:
         offsets = curves[first + 1 : last] - curves[first]
         chord = curves[last] - curves[first]
         length = float(np.linalg.norm(chord))
@@ -140,9 +140,11 @@ def _split(
             along = chord / length
             offsets -= np.outer(offsets @ along, along)
         found = np.linalg.norm(offsets, axis=1)
-        return found / max(length, _NO_LENGTH) if measure == "relative" else found
+        if measure == "relative":
+            found /= max(length, _NO_LENGTH)
+        return worst_of(found, first + 1)
 
-    return np.sort(split_at_worst(distances, keys, count))
+    return np.sort(split_at_worst(worst_between, keys, count))
 
 
 def _check_options(measure: Any, time_weight: Any) -> None:

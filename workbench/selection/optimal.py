@@ -48,9 +48,10 @@ class Optimal(Selector):
     keys are left out of the computation without losing exactness is proven in
     :mod:`workbench.selection.best_paths`.
 
-    The greedy selectors are compared with it: on four clips at 3 % their errors are 10 to 40 %
-    above the optimum. Time grows with the cube of the number of frames, from about a second at
-    500 frames.
+    It shows how much room selectors have: at 3 % of the frames of CMU 02_01, 05_10, 06_07 and
+    09_06 uniform keys are 11 to 33 % above the optimal sum, SCS 1 to 35 % and PB 9 to 35 %.
+    Time grows with the cube of the number of frames at worst; 1000 frames and 30 keys take
+    10 to 20 seconds on two cores, all counts up to 30 at once about three times as long.
 
     Only for motions, because the rows of a table have no order in time.
 

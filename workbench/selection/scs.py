@@ -7,8 +7,8 @@ from numpy.typing import NDArray
 
 from workbench.selection.base import Selector
 from workbench.selection.splitting import split_at_worst
-from workbench.selection.track_errors import errors_between
 from workbench.selection.tracks import check_interpolator, pose_track, with_ends
+from workbench.selection.worst_frames import WorstFrames
 from workbench.spaces import Space
 
 
@@ -19,7 +19,8 @@ class SimpleCurveSimplification(Selector):
     with the largest D_q(frame, interpolated frame). (Costa 2018, Alg. 1, "SCS"; the
     "reconstructed frame set" read as slerp between the keys, so that all schemes are compared
     on the same keys.) Of equal errors, that of the earlier frame counts. Keys are nested: a
-    larger count adds keys and keeps the others.
+    larger count adds keys and keeps the others. Most frames are known not to be the worst
+    without computing their errors (:mod:`workbench.selection.worst_frames`).
 
     Only for motions, because the rows of a table have no order in time.
 
@@ -51,4 +52,4 @@ class SimpleCurveSimplification(Selector):
     def _select(self, space: Space, count: int, fixed: NDArray[np.intp]) -> NDArray[np.intp]:
         track = pose_track(space, self.interpolator, "scs")
         keys = with_ends(fixed, len(space), count)
-        return np.sort(split_at_worst(lambda a, b: errors_between(track, a, b), keys, count))
+        return np.sort(split_at_worst(WorstFrames(track).between, keys, count))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 
 def split_at_worst(
-    errors_between: Callable[[int, int], NDArray[np.float64]],
+    worst_between: Callable[[int, int], tuple[float, int]],
     keys: NDArray[np.intp],
     count: int,
 ) -> NDArray[np.intp]:
@@ -23,9 +23,9 @@ def split_at_worst(
 
     Parameters
     ----------
-    errors_between : callable
-        ``errors_between(first, last)`` gives the errors of the frames between two
-        neighbouring keys, of shape (last - first - 1,).
+    worst_between : callable
+        ``worst_between(first, last)`` gives the largest error of the frames between two
+        neighbouring keys, and the first frame that has it.
     keys : ndarray of shape (n_keys,)
         Sorted keys to start from, the first and the last frame among them.
     count : int
@@ -40,7 +40,7 @@ def split_at_worst(
     Examples
     --------
     >>> values = np.array([0.0, 0.0, 3.0, 0.0, 1.0, 0.0])
-    >>> split_at_worst(lambda a, b: values[a + 1 : b], np.array([0, 5]), 4)
+    >>> split_at_worst(lambda a, b: worst_of(values[a + 1 : b], a + 1), np.array([0, 5]), 4)
     array([0, 5, 2, 4])
     """
     chosen = keys.tolist()
@@ -48,9 +48,8 @@ def split_at_worst(
 
     def wait(first: int, last: int) -> None:
         if last - first > 1:
-            errors = errors_between(first, last)
-            worst = int(np.argmax(errors))
-            heapq.heappush(waiting, (-float(errors[worst]), first + 1 + worst, first, last))
+            error, frame = worst_between(first, last)
+            heapq.heappush(waiting, (-error, frame, first, last))
 
     for first, last in pairwise(chosen):
         wait(first, last)
@@ -60,3 +59,22 @@ def split_at_worst(
         wait(first, frame)
         wait(frame, last)
     return np.array(chosen, dtype=np.intp)
+
+
+def worst_of(errors: NDArray[np.float64], begin: int) -> tuple[float, int]:
+    """Find the largest error and the first frame that has it.
+
+    Parameters
+    ----------
+    errors : ndarray of shape (n_errors,)
+        Errors of successive frames, at least one.
+    begin : int
+        The frame that the first is of.
+
+    Returns
+    -------
+    error : float
+    frame : int
+    """
+    worst = int(np.argmax(errors))
+    return float(errors[worst]), begin + worst

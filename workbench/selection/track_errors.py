@@ -25,7 +25,7 @@ BLOCK = 64
 
 
 @compiled_fused
-def _quaternion_angle(w, x, y, z, a, b, c, d):  # type: ignore[no-untyped-def]  # compiled
+def quaternion_angle(w, x, y, z, a, b, c, d):  # type: ignore[no-untyped-def]  # compiled
     """Compute the rotation angle between two unit quaternions, of either sign."""
     sign = 1.0 if w * a + x * b + y * c + z * d >= 0.0 else -1.0
     dw, dx, dy, dz = w - sign * a, x - sign * b, y - sign * c, z - sign * d
@@ -35,14 +35,33 @@ def _quaternion_angle(w, x, y, z, a, b, c, d):  # type: ignore[no-untyped-def]  
 
 
 @compiled_fused
-def _add_slerp_errors(goals, weight, first, last, begin, errors):  # type: ignore[no-untyped-def]  # compiled
-    """Add one joint's weighted angles; ``goals`` is its (4, n_frames) quaternions.
+def add_slerp_errors(  # type: ignore[no-untyped-def]  # compiled
+    p, q, length, goals, begin, spacing, weight, errors
+):
+    """Add one joint's weighted angles between its poses and slerp from one key to the next.
 
     Slerp from p to q is cos(m·θ)·p + sin(m·θ)·u after m frames, where θ is the angle per
     frame and u the unit vector at right angles to p in the plane of p and q.
+
+    Parameters
+    ----------
+    p, q : ndarray of shape (4,)
+        Unit quaternions of the keys.
+    length : int
+        Frames from the one to the other.
+    goals : ndarray of shape (4, n_all)
+        Unit quaternions, of which those from ``begin`` on are compared.
+    begin : tuple of (int, int)
+        Position in ``goals`` of the first to compare, and its frame, counted from ``p``.
+    spacing : int
+        Frames from one to the next.
+    weight : float
+        The joint's weight.
+    errors : ndarray of shape (n_errors,)
+        Added to.
     """
-    p0, p1, p2, p3 = goals[0, first], goals[1, first], goals[2, first], goals[3, first]
-    q0, q1, q2, q3 = goals[0, last], goals[1, last], goals[2, last], goals[3, last]
+    p0, p1, p2, p3 = p[0], p[1], p[2], p[3]
+    q0, q1, q2, q3 = q[0], q[1], q[2], q[3]
     if p0 * q0 + p1 * q1 + p2 * q2 + p3 * q3 < 0.0:
         # Of the two quaternions of a rotation, the nearer one turns the shorter way.
         q0, q1, q2, q3 = -q0, -q1, -q2, -q3
@@ -51,13 +70,14 @@ def _add_slerp_errors(goals, weight, first, last, begin, errors):  # type: ignor
     sine = math.sqrt(u0 * u0 + u1 * u1 + u2 * u2 + u3 * u3)
     scale = 1.0 / sine if sine > 0.0 else 0.0
     u0, u1, u2, u3 = u0 * scale, u1 * scale, u2 * scale, u3 * scale
-    step = math.degrees(math.atan2(sine, cosine)) / (last - first)
-    end = begin + errors.shape[0]
-    w, x, y, z = goals[0, begin:end], goals[1, begin:end], goals[2, begin:end], goals[3, begin:end]
+    step = math.degrees(math.atan2(sine, cosine)) / length
+    start, frame = begin
+    end = start + errors.shape[0]
+    w, x, y, z = goals[0, start:end], goals[1, start:end], goals[2, start:end], goals[3, start:end]
     for i in range(errors.shape[0]):
-        s, c = sine_and_cosine((begin - first + i) * step)
+        s, c = sine_and_cosine((frame + spacing * i) * step)
         a0, a1, a2, a3 = c * p0 + s * u0, c * p1 + s * u1, c * p2 + s * u2, c * p3 + s * u3
-        errors[i] += weight * _quaternion_angle(w[i], x[i], y[i], z[i], a0, a1, a2, a3)
+        errors[i] += weight * quaternion_angle(w[i], x[i], y[i], z[i], a0, a1, a2, a3)
 
 
 @compiled_fused
@@ -85,7 +105,7 @@ def _add_euler_errors(  # type: ignore[no-untyped-def]  # compiled
     a, b, c, d = goals[0, begin:end], goals[1, begin:end], goals[2, begin:end], goals[3, begin:end]
     x, y, z = v[0], v[1], v[2]
     for i in range(n):
-        errors[i] += weight * _quaternion_angle(w[i], x[i], y[i], z[i], a[i], b[i], c[i], d[i])
+        errors[i] += weight * quaternion_angle(w[i], x[i], y[i], z[i], a[i], b[i], c[i], d[i])
 
 
 @compiled
@@ -120,7 +140,9 @@ def frame_errors(track, first, last, begin, errors):  # type: ignore[no-untyped-
             continue
         goals = track.goals[row]
         if track.kind == SLERP:
-            _add_slerp_errors(goals, weight, first, last, begin, errors)
+            p, q = goals[:, first], goals[:, last]
+            start = (begin, begin - first)
+            add_slerp_errors(p, q, last - first, goals, start, 1, weight, errors)
         elif track.kind == EULER:
             curves, axes = track.curves[row], track.axes[row]
             _add_euler_errors(goals, curves, axes, weight, first, last, begin, errors)
