@@ -13,7 +13,7 @@ from workbench.selection.base import Selector, fixed_samples
 from workbench.selection.best_paths import best_paths
 from workbench.selection.tracks import check_interpolator, pose_track, with_ends
 from workbench.spaces import Space, check_space
-from workbench.validation import control_point_count
+from workbench.validation import control_point_count, require_memory
 
 OBJECTIVES = ("sum", "maximum")
 
@@ -127,4 +127,9 @@ class Optimal(Selector):
     ) -> list[tuple[NDArray[np.intp], float]]:
         track = pose_track(space, self.interpolator, "optimal")
         stops = with_ends(fixed, len(space), count)
+        require_memory(
+            32.0 * count * len(space),
+            f"{space.name or 'motion'}: the best of all {count} keyframes of {len(space)} frames",
+            "select fewer, or use the selector 'scs'",
+        )
         return list(best_paths(track, stops, count, self.objective == "maximum", only))
