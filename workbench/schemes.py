@@ -263,7 +263,7 @@ class SpatialScheme:
             back_projector.fit(projected[control], space.samples[control])
         optimization, embedding = None, projected
         if optimizer is not None:
-            objective = Objective(back_projector, space.errors)
+            objective = Objective.of(space, back_projector)
             with timings.step("optimize"):
                 optimization = optimizer.optimize(
                     objective, projected, free, space.neighbors, callback=callback

@@ -119,6 +119,44 @@ class Space(ABC):
         ndarray of shape (n_points,)
         """
 
+    @abstractmethod
+    def error_table(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
+        """Measure the error of every reconstruction as one of every given sample.
+
+        Parameters
+        ----------
+        indices : array-like of shape (n_indices,)
+            Samples.
+        reconstructions : array-like of shape (n_reconstructions, ...)
+            Reconstructed samples.
+
+        Returns
+        -------
+        ndarray of shape (n_indices, n_reconstructions)
+        """
+
+    @abstractmethod
+    def error_derivatives(
+        self, indices: ArrayLike, reconstructions: ArrayLike, jacobians: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Measure errors and how they change with what the reconstructions depend on.
+
+        Parameters
+        ----------
+        indices, reconstructions
+            As for :meth:`errors`.
+        jacobians : ndarray of shape (n_points, ..., n_dimensions)
+            Derivatives of the reconstructions by position.
+
+        Returns
+        -------
+        errors : ndarray of shape (n_points,)
+        gradients : ndarray of shape (n_points, n_dimensions)
+        curvatures : ndarray of shape (n_points, n_dimensions, n_dimensions)
+            Second derivatives as if the Jacobians were constant (Gauss and Newton):
+            positive semidefinite. All 0 where the error is 0 and has a kink.
+        """
+
     @property
     @abstractmethod
     def neighbors(self) -> NDArray[np.intp]:
@@ -277,6 +315,23 @@ class VectorSpace(Space):
         originals, rebuilt = self.matched(indices, reconstructions)
         return finite(np.linalg.norm(originals - rebuilt, axis=1), "errors of reconstructions")
 
+    def error_table(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
+        """Measure Euclidean distances: (n_indices, n_reconstructions)."""
+        return self.cross_distances(self.samples[_index(indices)], reconstructions)
+
+    def error_derivatives(
+        self, indices: ArrayLike, reconstructions: ArrayLike, jacobians: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Measure Euclidean distances to rows, and their derivatives."""
+        originals, rebuilt = self.matched(indices, reconstructions)
+        difference = rebuilt - originals
+        errors = finite(np.linalg.norm(difference, axis=1), "errors of reconstructions")
+        per_error = np.divide(1.0, errors, out=np.zeros_like(errors), where=errors > 0)
+        gradients = np.einsum("nf,nfd,n->nd", difference, jacobians, per_error)
+        curvatures = np.swapaxes(jacobians, 1, 2) @ jacobians
+        curvatures -= gradients[:, :, None] * gradients[:, None, :]
+        return errors, gradients, curvatures * per_error[:, None, None]
+
     @cached_property
     def neighbors(self) -> NDArray[np.intp]:
         """The two nearest other rows of each row: (n_samples, 2).
@@ -390,6 +445,25 @@ class PoseSpace(Space):
         originals, rebuilt = self.matched(indices, reconstructions)
         distances = rotation_distance_pairs(originals, rebuilt, self.weights)
         return finite(distances / len(self.weights), "errors of reconstructions")
+
+    def error_table(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
+        """Measure D_q per joint: (n_indices, n_reconstructions)."""
+        distances = self.cross_distances(self.samples[_index(indices)], reconstructions)
+        return distances / len(self.weights)
+
+    def error_derivatives(
+        self, indices: ArrayLike, reconstructions: ArrayLike, jacobians: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Measure D_q per joint between frames and reconstructions, and its derivatives."""
+        from workbench.mocap.distance_derivatives import rotation_distance_derivatives
+
+        originals, rebuilt = self.matched(indices, reconstructions)
+        n_joints = len(self.weights)
+        distances, gradients, curvatures = rotation_distance_derivatives(
+            originals, rebuilt, jacobians, self.weights
+        )
+        errors = finite(distances / n_joints, "errors of reconstructions")
+        return errors, gradients / n_joints, curvatures / n_joints
 
     @cached_property
     def positions(self) -> NDArray[np.float64]:

@@ -10,7 +10,11 @@ from workbench.registry import Registry
 
 optimizers = Registry(
     "optimizer",
-    {"alg12": "workbench.optimization.gradient_descent:GradientDescent"},
+    {
+        "alg12": "workbench.optimization.gradient_descent:GradientDescent",
+        "local": "workbench.optimization.local_search:LocalSearch",
+        "global": "workbench.optimization.global_search:GlobalSearch",
+    },
     needs=("optimize",),
 )
 register_optimizer = optimizers.register

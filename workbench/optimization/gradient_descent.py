@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.optimization.objective import Callback, Objective, OptimizationResult
+from workbench.optimization.progress import neighbor_radii
 from workbench.validation import as_embedding, control_point_indices
 
 
@@ -113,13 +114,13 @@ class GradientDescent:
         if neighbors.shape != (len(points), 2):
             raise WorkbenchError(f"neighbors: got shape {neighbors.shape}, want ({len(points)}, 2)")
         pairs = neighbors[free]
-        started_at = objective.evaluations
+        started_at = objective.effort
         errors = objective(points[free], free)
         history = [float(errors.mean())]
         best, best_points, best_errors = history[0], points.copy(), errors
         best_sweep, reason = 0, f"reached {self.max_sweeps} sweeps"
         for sweep in range(1, self.max_sweeps + 1):
-            radii = _radii(points, free, pairs)
+            radii = neighbor_radii(points, free, pairs)
             directions = self._directions(objective, points[free], free, errors, radii)
             points[free] += self.step * radii[:, None] * directions
             errors = objective(points[free], free)
@@ -136,12 +137,9 @@ class GradientDescent:
             if sweep - best_sweep >= self.patience:
                 reason = f"no new minimum for {self.patience} sweeps"
                 break
+        effort = objective.effort - started_at
         return OptimizationResult(
-            best_points,
-            best_errors,
-            np.array(history),
-            objective.evaluations - started_at,
-            reason,
+            best_points, best_errors, np.array(history), effort.evaluations, reason, effort
         )
 
     def _directions(
@@ -162,17 +160,3 @@ class GradientDescent:
         slope = np.where(better, backward - forward, 0.0).T
         length = np.linalg.norm(slope, axis=1, keepdims=True)
         return np.divide(slope, length, out=np.zeros_like(slope), where=length > 0)
-
-
-def _radii(
-    points: NDArray[np.float64], free: NDArray[np.intp], pairs: NDArray[np.intp]
-) -> NDArray[np.float64]:
-    """Average each free point's distances to its two neighbours.
-
-    Points that coincide with both have no radius of their own and take the median one.
-    """
-    radii = np.linalg.norm(points[pairs] - points[free, None], axis=2).mean(axis=1)
-    positive = radii > 0
-    if positive.any():
-        radii[~positive] = np.median(radii[positive])
-    return radii

@@ -3,18 +3,50 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.backprojection import BackProjector
+from workbench.spaces import Space
 
 #: Called with (iteration, mean error, embedding) after each iteration; a true result stops.
 Callback = Callable[[int, float, NDArray[np.float64]], bool | None]
 
 #: Error measure: (indices of samples, their reconstructions) to one error for each.
 ErrorFunction = Callable[[NDArray[np.intp], NDArray[np.float64]], NDArray[np.float64]]
+
+#: Points differentiated at once, which bounds the memory of their Jacobians.
+_BLOCK = 1024
+
+
+@dataclass(frozen=True)
+class Effort:
+    """What a search has cost so far.
+
+    Attributes
+    ----------
+    evaluations : int
+        Points back-projected.
+    jacobians : int
+        Points at which the back-projection was differentiated too; by finite differences
+        each would cost as many evaluations as the embedding has dimensions.
+    distances : int
+        Errors measured, each between a sample and a reconstruction.
+    """
+
+    evaluations: int = 0
+    jacobians: int = 0
+    distances: int = 0
+
+    def __sub__(self, earlier: Effort) -> Effort:
+        return Effort(
+            self.evaluations - earlier.evaluations,
+            self.jacobians - earlier.jacobians,
+            self.distances - earlier.distances,
+        )
 
 
 class Objective:
@@ -27,17 +59,37 @@ class Objective:
     errors : callable
         ``errors(indices, reconstructions)`` gives one error for each reconstruction, for
         instance :meth:`workbench.spaces.Space.errors`.
+    space : Space, optional
+        Where the errors come from, see :meth:`of`; it knows their derivatives.
 
     Attributes
     ----------
-    evaluations : int
-        Points back-projected so far.
+    effort : Effort
+        What was computed so far.
     """
 
-    def __init__(self, back_projector: BackProjector, errors: ErrorFunction) -> None:
-        self._back_projector = back_projector
+    def __init__(
+        self, back_projector: BackProjector, errors: ErrorFunction, space: Space | None = None
+    ) -> None:
+        self._back_projector: Any = back_projector
         self._errors = errors
-        self.evaluations = 0
+        self._space = space
+        self.effort = Effort()
+
+    @classmethod
+    def of(cls, space: Space, back_projector: BackProjector) -> Objective:
+        """Make the objective of a space's own error."""
+        return cls(back_projector, space.errors, space)
+
+    @property
+    def evaluations(self) -> int:
+        """Points back-projected so far."""
+        return self.effort.evaluations
+
+    @property
+    def has_derivatives(self) -> bool:
+        """Whether :meth:`derivatives` can be had: of the back-projector and of the error."""
+        return self._space is not None and hasattr(self._back_projector, "predict_with_jacobian")
 
     def __call__(self, points: NDArray[np.float64], indices: ArrayLike) -> NDArray[np.float64]:
         """Evaluate the errors of samples placed at points.
@@ -53,8 +105,88 @@ class Objective:
         -------
         ndarray of shape (n_points,)
         """
-        self.evaluations += len(points)
+        self._count(evaluations=len(points), distances=len(points))
         return self._errors(np.asarray(indices), self._back_projector.predict(points))
+
+    def derivatives(
+        self, points: NDArray[np.float64], indices: ArrayLike
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+        """Evaluate errors with their gradients and curvatures by position.
+
+        Parameters
+        ----------
+        points, indices
+            As for a call.
+
+        Returns
+        -------
+        errors : ndarray of shape (n_points,)
+        gradients : ndarray of shape (n_points, n_dimensions)
+        curvatures : ndarray of shape (n_points, n_dimensions, n_dimensions)
+            See :meth:`workbench.spaces.Space.error_derivatives`.
+        """
+        assert self._space is not None
+        self._count(evaluations=len(points), jacobians=len(points), distances=len(points))
+        indices = np.asarray(indices)
+        parts = []
+        for start in range(0, len(points), _BLOCK):
+            block = slice(start, start + _BLOCK)
+            rebuilt = self._back_projector.predict_with_jacobian(points[block])
+            parts.append(self._space.error_derivatives(indices[block], *rebuilt))
+        if not parts:
+            dimensions = points.shape[1]
+            return np.empty(0), np.empty((0, dimensions)), np.empty((0, dimensions, dimensions))
+        errors, gradients, curvatures = (np.concatenate(part) for part in zip(*parts, strict=True))
+        return errors, gradients, curvatures
+
+    def back_project(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Rebuild one sample at each point, to be compared with several samples.
+
+        Parameters
+        ----------
+        points : ndarray of shape (n_points, n_dimensions)
+            Positions.
+
+        Returns
+        -------
+        ndarray of shape (n_points, ...)
+        """
+        self._count(evaluations=len(points))
+        rebuilt: NDArray[np.float64] = self._back_projector.predict(points)
+        return rebuilt
+
+    def table(
+        self, indices: NDArray[np.intp], reconstructions: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Evaluate the error of every reconstruction as one of every given sample.
+
+        Parameters
+        ----------
+        indices : ndarray of shape (n_indices,)
+            Samples.
+        reconstructions : ndarray of shape (n_reconstructions, ...)
+            As :meth:`back_project` gives them.
+
+        Returns
+        -------
+        ndarray of shape (n_indices, n_reconstructions)
+        """
+        self._count(distances=len(indices) * len(reconstructions))
+        if self._space is not None:
+            return self._space.error_table(indices, reconstructions)
+        every = np.arange(len(reconstructions))
+        rows = [
+            self._errors(np.full(len(every), index), reconstructions[every]) for index in indices
+        ]
+        return np.array(rows).reshape(len(indices), len(every))
+
+    def _count(self, evaluations: int = 0, jacobians: int = 0, distances: int = 0) -> None:
+        self.effort = replace(
+            self.effort,
+            evaluations=self.effort.evaluations + evaluations,
+            jacobians=self.effort.jacobians + jacobians,
+            distances=self.effort.distances + distances,
+        )
 
 
 @dataclass(frozen=True)
@@ -73,6 +205,8 @@ class OptimizationResult:
         Points back-projected.
     reason : str
         Why the search ended.
+    effort : Effort or None
+        What else was computed, where the optimizer tells.
     """
 
     embedding: NDArray[np.float64]
@@ -80,6 +214,7 @@ class OptimizationResult:
     history: NDArray[np.float64]
     evaluations: int
     reason: str
+    effort: Effort | None = None
 
     @property
     def iterations(self) -> int:
