@@ -12,7 +12,7 @@ import warnings
 
 import typer
 
-from workbench.cli import data, methods, reproduction, serve
+from workbench.cli import compaction, data, methods, reproduction, serve
 from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
 
 # Plain help and plain errors: one line each, and rich takes a quarter of a second to import.
@@ -28,8 +28,8 @@ app.add_typer(data.app, name="datasets", help="List, fetch and check data sets."
 for command, summary in (
     (methods.project, "Project a table or a motion to the plane."),
     (methods.keyframes, "Select keyframes of a motion."),
-    (methods.compact, "Keep keyframes, rebuild the rest, measure the loss."),
-    (methods.expand, "Rebuild a motion from a compact file."),
+    (compaction.compact, "Keep keyframes, rebuild the rest, measure the loss."),
+    (compaction.expand, "Rebuild a motion from a compact file."),
     (reproduction.reproduce, "Regenerate figures and tables of the theses."),
     (serve.lab, "Open the notebooks in JupyterLab."),
     (serve.app, "Serve the dashboards with Voila."),

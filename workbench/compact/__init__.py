@@ -1,6 +1,6 @@
 """The compact form of a motion and its file: keyframes, and what tells the other frames.
 
-See :mod:`workbench.compact.motion` for what is kept and how exactly,
+See :mod:`workbench.compact.reduction` for what is kept and how exactly,
 :mod:`workbench.compact.file` for the file, byte by byte, and
 :mod:`workbench.compact.sizes` for what that saves.
 """
@@ -8,7 +8,8 @@ See :mod:`workbench.compact.motion` for what is kept and how exactly,
 from __future__ import annotations
 
 from workbench.compact.file import compact_bytes, read_compact, write_compact
-from workbench.compact.motion import CompactMotion, compact_motion
+from workbench.compact.motion import CompactMotion
+from workbench.compact.reduction import compact_motion
 from workbench.compact.sizes import Sizes, compare_sizes
 
 __all__ = [

@@ -38,7 +38,7 @@ class Coded:
 
 
 def encode(counts: NDArray[np.int64]) -> Coded:
-    """Turn rows of whole numbers into bytes, with the differences that compress best.
+    r"""Turn rows of whole numbers into bytes, with the differences that compress best.
 
     Parameters
     ----------
@@ -51,8 +51,8 @@ def encode(counts: NDArray[np.int64]) -> Coded:
 
     Examples
     --------
-    >>> encode(np.array([[0], [10], [20], [30]]))
-    Coded(content=b'\\x00\\x14\\x00\\x00', differences=2, width=1)
+    >>> encode(np.arange(0, 80, 10)[:, None])
+    Coded(content=b'\x00\x14\x14\x14\x14\x14\x14\x14', differences=1, width=1)
     """
     every = [_encode(counts, differences) for differences in range(MOST_DIFFERENCES + 1)]
     return min(every, key=lambda coded: len(zlib.compress(coded.content, 9)))

@@ -56,7 +56,7 @@ import numpy as np
 from workbench.compact.coding import Coded, decode, encode
 from workbench.compact.motion import CompactMotion
 from workbench.compact.quantization import Quantized
-from workbench.errors import DataError, WorkbenchError
+from workbench.errors import DataError
 from workbench.files import write_atomically
 from workbench.interpolation import interpolators
 from workbench.mocap.skeleton import EndSite, Skeleton
@@ -257,9 +257,7 @@ def _skeleton_to_json(skeleton: Skeleton) -> dict[str, Any]:
             own if first[own] == joint else first[own]
             for joint, own in enumerate(skeleton.channels)
         ],
-        "end_sites": [
-            [site.joint, site.offset.tolist(), site.name] for site in skeleton.end_sites
-        ],
+        "end_sites": [[site.joint, site.offset.tolist(), site.name] for site in skeleton.end_sites],
         "unit_cm": skeleton.unit_cm,
     }
 

@@ -1,0 +1,43 @@
+"""What commands do before anything is computed: load data, check where results go."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import typer
+
+from workbench.errors import WorkbenchError
+
+if TYPE_CHECKING:
+    from workbench.spaces import PoseSpace, Space
+
+
+def load(source: str, label: str | None = None, standardize: bool = False) -> Space:
+    """Load data, and say how a table was treated to become numbers."""
+    from workbench.datasets import load_space
+
+    space = load_space(source, label=label, standardize=standardize)
+    for note in space.notes:
+        typer.echo(f"workbench: note: {note}", err=True)
+    return space
+
+
+def load_motion(clip: str) -> PoseSpace:
+    """Load a motion, refusing a table."""
+    from workbench.spaces import PoseSpace
+
+    space = load(clip)
+    if not isinstance(space, PoseSpace):
+        raise WorkbenchError(f"{clip}: got a table, want a motion")
+    return space
+
+
+def check_folder(out: Path | None) -> None:
+    """Refuse an output file that has no place, before anything is computed."""
+    if out is None:
+        return
+    if out.is_dir():
+        raise WorkbenchError(f"--out: got the folder {str(out)!r}, want the name of a file")
+    if not out.resolve().parent.is_dir():
+        raise WorkbenchError(f"--out: there is no folder {str(out.resolve().parent)!r}")
