@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.backprojection import BackProjector
+from workbench.optimization.markers import MarkerResult
 from workbench.optimization.objective import OptimizationResult
 from workbench.quality.summary import EmbeddingQuality, embedding_quality
 from workbench.spaces import Space
@@ -91,6 +92,8 @@ class SpatialResult(Result):
         Fitted on the control points.
     optimization : OptimizationResult or None
         How the optimizer got there.
+    marker_result : MarkerResult or None
+        How better markers were found.
     evaluations : int
         Points back-projected, by the optimizer and for the reconstruction.
     """
@@ -99,6 +102,7 @@ class SpatialResult(Result):
     embedding: NDArray[np.float64]
     back_projector: BackProjector
     optimization: OptimizationResult | None
+    marker_result: MarkerResult | None
     evaluations: int
 
     @cached_property

@@ -20,6 +20,7 @@ from workbench.backprojection import BackProjector, back_projector_for
 from workbench.errors import WorkbenchError
 from workbench.interpolation import Interpolator, interpolators
 from workbench.optimization import optimizers
+from workbench.optimization.markers import marker_searches
 from workbench.optimization.objective import Callback, Objective
 from workbench.projection import fit_projection, projectors
 from workbench.projection.two_step import project_in_two_steps
@@ -169,6 +170,9 @@ class SpatialScheme:
         only, and this method the rest around them. None projects all samples in one step.
     dimensions : int or None
         Dimensions of the embedding, 2 or 3; None for the projector's own, usually 2.
+    markers : str, marker search or None
+        ``"move"`` or ``"exchange"``: after the optimization the control points move too, or
+        neighbouring samples take their place. None leaves them.
     """
 
     projector: Any = "tsne"
@@ -177,6 +181,7 @@ class SpatialScheme:
     optimizer: Any = None
     two_step: Any = None
     dimensions: int | None = None
+    markers: Any = None
 
     def run(
         self,
@@ -269,6 +274,14 @@ class SpatialScheme:
                     objective, projected, free, space.neighbors, callback=callback
                 )
             embedding = optimization.embedding
+        marker_result = None
+        if self.markers is not None:
+            search = marker_searches.build(self.markers, random_state)
+            with timings.step("markers"):
+                marker_result = search.search(space, back_projector, control, embedding)
+            found = marker_result.markers
+            control, free, embedding = found.control_points, found.free, found.embedding
+            back_projector = found.back_projector
         with timings.step("back-project"):
             rebuilt = space.samples.copy()
             _, rebuilt[free] = space.matched(free, back_projector.predict(embedding[free]))
@@ -281,5 +294,8 @@ class SpatialScheme:
             embedding=embedding,
             back_projector=back_projector,
             optimization=optimization,
-            evaluations=len(free) + (optimization.evaluations if optimization else 0),
+            marker_result=marker_result,
+            evaluations=len(free)
+            + (optimization.evaluations if optimization else 0)
+            + (marker_result.effort.evaluations if marker_result else 0),
         )

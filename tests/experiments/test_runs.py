@@ -59,7 +59,7 @@ def test_key_is_the_same_in_every_process(monkeypatch):
     monkeypatch.setattr(runs, "code_digest", lambda: "def")
     text = (
         '{"code":"def","data":"abc","run":{"back_projector":null,"count":null,'
-        '"dataset":"uci/iris","dimensions":null,"kind":"spatial","optimizer":null,"projector":"pca","ratio":0.03,'
+        '"dataset":"uci/iris","dimensions":null,"kind":"spatial","markers":null,"optimizer":null,"projector":"pca","ratio":0.03,'
         '"seed":0,"selector":"random","standardize":false,"two_step":null},"versions":{"numpy":"2.4"}}'
     )
     assert content_key(RUN, "abc") == hashlib.sha256(text.encode()).hexdigest()

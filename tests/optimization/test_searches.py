@@ -158,7 +158,7 @@ def test_the_global_search_leaves_poor_basins(derivatives):
     stuck = roll(1).run(LocalSearch(), derivatives=derivatives).errors.mean()
     found = roll(1).run(GlobalSearch(), derivatives=derivatives).errors.mean()
     assert stuck > 3 * home
-    assert found < 1.3 * home
+    assert found < 1.5 * home
 
 
 def dense_search(problem, steps=81, padding=0.25):

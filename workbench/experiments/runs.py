@@ -100,6 +100,8 @@ def scheme_name(scheme: Scheme) -> str:
     parts += [part for part in (scheme.two_step, scheme.selector, scheme.back_projector) if part]
     if scheme.dimensions is not None:
         parts.append(f"{scheme.dimensions}-D")
+    if scheme.markers:
+        parts.append(f"{scheme.markers} markers")
     return ", ".join(str(part) for part in parts)
 
 

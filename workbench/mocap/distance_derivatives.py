@@ -43,13 +43,15 @@ def _pose_derivatives(  # type: ignore[no-untyped-def]  # compiled
             for j in range(3):
                 difference = target[joint, i, j] - pose[joint, i, j]
                 chord2 += difference * difference
-        angle = 2.0 * math.asin(min(math.sqrt(chord2 / 8.0), 1.0))
+        half_sine2 = min(chord2 / 8.0, 1.0)
+        angle = 2.0 * math.asin(math.sqrt(half_sine2))
         total += weights[joint] * angle
         length = _axis(target[joint], pose[joint], axis)
         if angle < _REACHED or length < _REACHED:
             continue
-        # The second derivative of a distance on the group of rotations, across the axis.
-        bend = 0.5 * weights[joint] / math.tan(0.5 * angle)
+        # The second derivative of a distance on the group of rotations, across the axis:
+        # ½ cot(angle / 2), by the sine of that half.
+        bend = 0.5 * weights[joint] * math.sqrt((1.0 - half_sine2) / half_sine2)
         for d in range(n_directions):
             # pose' = pose · [turn]×; the antisymmetric part is read twice, hence the half.
             _axis(pose[joint], changes[d, joint], turns[d])

@@ -41,6 +41,13 @@ class Effort:
     jacobians: int = 0
     distances: int = 0
 
+    def __add__(self, other: Effort) -> Effort:
+        return Effort(
+            self.evaluations + other.evaluations,
+            self.jacobians + other.jacobians,
+            self.distances + other.distances,
+        )
+
     def __sub__(self, earlier: Effort) -> Effort:
         return Effort(
             self.evaluations - earlier.evaluations,
