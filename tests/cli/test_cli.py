@@ -12,6 +12,8 @@ import pandas as pd
 import pytest
 
 from tests.conftest import find_clip
+from workbench.datasets import load_space
+from workbench.selection.saliency import Saliency
 
 PROJECT_REPORT = {
     "stress",
@@ -142,6 +144,41 @@ def test_keyframes_and_compact_on_a_bundled_clip(run):
     assert values["evaluations"] == 0
 
 
+def test_saliency_counts_by_its_own_rule(run):
+    """Without count and ratio it gives what its clusters give; with one of them, that many."""
+    words = ["keyframes", "cmu/01_01-jump", "--selector", "saliency", "--json"]
+    own, counted, kept = (
+        json.loads(run(*words, *more)[1])["frames"]
+        for more in ([], ["--count", 5], ["--keep", 33, "--keep", 34])
+    )
+    expected = Saliency().select(load_space("cmu/01_01-jump")).tolist()
+    assert own == expected
+    assert len(own) != int(0.03 * 300)
+    assert len(counted) == 5
+    assert kept == sorted({*own, 33, 34})
+
+
+def test_the_second_step_and_dimensions_change_the_map(run, tmp_path):
+    """--two-step means rbfp, lamp is another, and with --dimensions 3 there is a z."""
+    tables = []
+    for words in (
+        [],
+        ["--two-step"],
+        ["--control-point-projector", "rbfp"],
+        ["--control-point-projector", "lamp"],
+        ["--dimensions", 3],
+    ):
+        out = tmp_path / "map.csv"
+        status, _, err = run("project", "uci/iris", "--count", 20, *words, "--out", out)
+        assert status == 0, err
+        tables.append(pd.read_csv(out))
+    one_step, two_step, rbfp, lamp, space = tables
+    assert two_step.equals(rbfp)
+    assert not two_step.equals(lamp)
+    assert not two_step.equals(one_step)
+    assert list(space)[:3] == ["x", "y", "z"]
+
+
 def test_the_main_result_of_the_thesis(run):
     """On 05_10 at 3 % optimized t-SNE reaches 0.34 ± 0.02 where slerp reaches 0.41 ± 0.01."""
     find_clip("05_10")
@@ -181,6 +218,32 @@ def test_the_main_result_of_the_thesis(run):
             ["compact", "cmu/01_01", "--interpolator", "slerp", "--optimize"],
             "want it with --projector",
         ),
+        (
+            ["compact", "cmu/01_01", "--interpolator", "slerp", "--two-step"],
+            "--two-step: got it with --interpolator",
+        ),
+        (
+            ["compact", "cmu/01_01", "--interpolator", "slerp", "--dimensions", "3"],
+            "--dimensions: got it with --interpolator",
+        ),
+        (["compact", "cmu/01_01", "--projector", "pca", "--tolerance", "nan"], "--tolerance"),
+        (["project", "uci/iris", "--dimensions", "4"], "--dimensions: got 4, want 2 or 3"),
+        (["project", "uci/iris", "--control-point-projector", "x"], "want one of rbfp, lamp"),
+        (["project", "uci/iris", "--control-points", "scs"], "rows of a table have no order"),
+        (["project", "uci/iris", "--control-points", "saliency"], "want a motion"),
+        (["project", "uci/iris", "--two-step", "--back-projector", "inverse"], "in two steps"),
+        (
+            ["project", "uci/iris", "--projector", "mds", "--back-projector", "inverse"],
+            "pca or umap",
+        ),
+        (["project", "uci/iris", "--keep", "150"], "--keep: got 150…150, want indices from 0"),
+        (["keyframes", "cmu/01_01", "--keep", "1", "--keep", "1"], "--keep: got 1, 1, want"),
+        (["keyframes", "cmu/01_01", "--keep", "-1"], "--keep: got -1, want numbers from 0"),
+        (
+            ["keyframes", "cmu/01_01", "--count", "2", "--keep", "1", "--keep", "2", "--keep", "3"],
+            "--keep: got 3 that must stay, want at most the 2",
+        ),
+        (["keyframes", "cmu/01_01", "--count", "1"], "--count: got 1, want at least 2"),
         (["keyframes", "uci/iris"], "want a motion"),
         (["datasets", "check", "uci/none"], "uci/none"),
         (["reproduce", "costa2018:fig9.9"], "costa2018:fig9.9"),
@@ -255,6 +318,32 @@ def test_heavy_packages_are_not_imported_for_help():
     )
     done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
     assert done.stdout.strip() == "[]"
+
+
+def test_wrong_names_are_refused_before_anything_heavy_is_loaded():
+    """Every option that takes a name checks it first."""
+    code = (
+        "import sys, workbench.cli\n"
+        "clip = ['cmu/01_01', '--projector', 'pca']\n"
+        "wrong = [['project', 'uci/iris', option, 'x'] for option in\n"
+        "    ('--projector', '--control-points', '--control-point-projector', '--optimizer',\n"
+        "     '--back-projector')]\n"
+        "wrong += [['compact', *clip, option, 'x'] for option in\n"
+        "    ('--selector', '--control-point-projector', '--optimizer')]\n"
+        "wrong += [['compact', 'cmu/01_01', '--interpolator', 'x'],\n"
+        "    ['keyframes', 'cmu/01_01', '--selector', 'x']]\n"
+        "for words in wrong:\n"
+        "    sys.argv = ['workbench', *words]\n"
+        "    try:\n"
+        "        workbench.cli.main()\n"
+        "    except SystemExit as ending:\n"
+        "        print(ending.code, end=' ')\n"
+        "heavy = 'umap numba scipy sklearn pandas'.split()\n"
+        "print([name for name in heavy if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout.strip() == "2 " * 10 + "[]"
+    assert done.stderr.count("want one of") == 10
 
 
 def test_compiling_is_said_once_and_only_when_it_happens(tmp_path):

@@ -112,3 +112,20 @@ def test_a_folder_as_output_is_refused_before_computing(run, tmp_path, monkeypat
     assert status == 2
     assert f"--out: got the folder {str(tmp_path)!r}, want the name of a file" in err
     assert err.count("\n") == 1
+
+
+def test_a_file_that_cannot_be_written_is_named(run, tmp_path, monkeypatch):
+    """The line names the file that was asked for, not a temporary one."""
+
+    def refuse(*_):
+        raise OSError(28, "No space left on device", "some.part")
+
+    monkeypatch.setattr("workbench.files.os.replace", refuse)
+    for words in (
+        ["compact", "cmu/01_01-jump", "--interpolator", "slerp", "--out", tmp_path / "x.compact"],
+        ["project", "uci/iris", "--out", tmp_path / "x.csv"],
+    ):
+        status, out, err = run(*words)
+        assert (status, out) == (2, "")
+        assert err.endswith(f"{words[-1]}: cannot be written (No space left on device)\n")
+    assert not list(tmp_path.iterdir())

@@ -5,6 +5,9 @@ from __future__ import annotations
 import contextlib
 import json
 import struct
+import subprocess
+import sys
+import time
 import zlib
 
 import numpy as np
@@ -64,6 +67,7 @@ def test_the_header_states_the_bounds(compacted):
     (length,) = struct.unpack("<I", body[:4])
     header = json.loads(body[4 : 4 + length])
     bounds = {entry["name"]: entry["bound"] for entry in header["arrays"]}
+    assert bounds["keyframes"] == 0
     assert bounds["keys"] == compact.keys.bound
     assert bounds["path"] == compact.path.bound
     assert ("embedding" in bounds) == (compact.embedding is not None)
@@ -165,6 +169,26 @@ def test_a_failed_write_leaves_the_old_file(compacted, tmp_path, monkeypatch):
         write_compact(compacted[1], path)
     assert path.read_bytes() == b"old"
     assert [p.name for p in tmp_path.iterdir()] == ["clip.compact"]
+
+
+def test_killed_while_writing_the_file_is_whole(tmp_path):
+    """Whenever the writer is killed, a whole file stands under the name."""
+    path = tmp_path / "clip.compact"
+    path.write_bytes(_small())
+    code = (
+        "import sys\n"
+        "from workbench.compact import read_compact, write_compact\n"
+        "compact = read_compact(sys.argv[1])\n"
+        "print('writing', flush=True)\n"
+        "while True:\n"
+        "    write_compact(compact, sys.argv[1])\n"
+    )
+    words = [sys.executable, "-c", code, str(path)]
+    with subprocess.Popen(words, stdout=subprocess.PIPE, text=True) as writer:
+        assert writer.stdout.readline() == "writing\n"
+        time.sleep(0.05)
+        writer.kill()
+    assert path.read_bytes() == _small()
 
 
 def _small() -> bytes:

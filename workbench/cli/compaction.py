@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from workbench.cli import options
-from workbench.cli.loading import check_folder, load_motion
+from workbench.cli.files import check_folder, load_motion, write
 from workbench.errors import WorkbenchError
 from workbench.interpolation import interpolators
 from workbench.projection import projectors
@@ -61,7 +61,6 @@ def compact(
     check_folder(out)
 
     from workbench.compact import compact_bytes, compact_motion, compare_sizes
-    from workbench.files import write_atomically
     from workbench.quality.reconstruction import compression_ratio, position_error
     from workbench.results import SpatialResult
     from workbench.schemes import SpatialScheme, TemporalScheme
@@ -79,7 +78,7 @@ def compact(
     compacted = compact_motion(result, interpolator, tolerance=tolerance)
     content = compact_bytes(compacted)
     if out is not None:
-        write_atomically(out, content)
+        write(out, content)
 
     keys = result.control_points
     values: dict[str, Any] = {

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from workbench.backprojection import back_projectors
 from workbench.cli import options
-from workbench.cli.loading import check_folder, load, load_motion
+from workbench.cli.files import check_folder, load, load_motion, write
 from workbench.errors import WorkbenchError
 from workbench.projection import projectors
 from workbench.selection import selectors
@@ -100,10 +100,7 @@ def _table_writer(out: Path | None) -> Callable[[Any], None] | None:
     if content is None:
         raise WorkbenchError(f"--out: got {str(out)!r}, want a name ending in .csv or .parquet")
     check_folder(out)
-
-    from workbench.files import write_atomically
-
-    return lambda table: write_atomically(out, content(table))
+    return lambda table: write(out, content(table))
 
 
 def _embedding_table(result: SpatialResult) -> Any:

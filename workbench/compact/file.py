@@ -33,9 +33,9 @@ the other. The header is JSON in UTF-8:
 ``scheme_error``, ``error``
     Error per frame per joint before rounding and of what the file gives.
 ``arrays``
-    For each array its ``name``, ``shape`` (rows, columns), ``step``, ``bound`` (half a step:
-    the most by which a number differs from what it was), ``origin`` if that is not 0, and
-    how its bytes were made: ``differences`` and ``width``, see
+    For each array its ``name``, ``shape`` (rows, columns), ``step``, ``bound`` (the most by
+    which a number differs from what it was: half a step, or 0 for frame numbers), ``origin``
+    if that is not 0, and how its bytes were made: ``differences`` and ``width``, see
     :class:`workbench.compact.coding.Coded`.
 
 The arrays are ``keyframes`` (frame numbers), ``keys``, ``path`` and, where there is no
@@ -53,6 +53,7 @@ from typing import Any
 
 import numpy as np
 
+from workbench.backprojection.poses import SpatialKeyframes
 from workbench.compact.coding import Coded, decode, encode
 from workbench.compact.motion import CompactMotion
 from workbench.compact.quantization import Quantized
@@ -211,6 +212,7 @@ def _parse(stream: bytes, path: Path) -> CompactMotion:
     if interpolator is None:
         embedding = arrays["embedding"]
         as_embedding(embedding.values, n=n_frames)
+        SpatialKeyframes(**header["back_projector"])  # which refuses what it does not know
     elif interpolator not in interpolators:
         known = ", ".join(interpolators.names())
         raise DataError(f"{path}: needs interpolator {interpolator!r}, here are {known}")
@@ -238,7 +240,7 @@ def _entry(name: str, array: Quantized, coded: Coded) -> dict[str, Any]:
         "name": name,
         "shape": array.counts.shape,
         "step": array.step,
-        "bound": array.bound,
+        "bound": 0.0 if name == "keyframes" else array.bound,
         "differences": coded.differences,
         "width": coded.width,
     }

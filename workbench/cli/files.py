@@ -1,4 +1,4 @@
-"""What commands do before anything is computed: load data, check where results go."""
+"""Data that commands load, and files that they write."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from workbench.errors import WorkbenchError
+from workbench.errors import DataError, WorkbenchError
 
 if TYPE_CHECKING:
     from workbench.spaces import PoseSpace, Space
@@ -41,3 +41,13 @@ def check_folder(out: Path | None) -> None:
         raise WorkbenchError(f"--out: got the folder {str(out)!r}, want the name of a file")
     if not out.resolve().parent.is_dir():
         raise WorkbenchError(f"--out: there is no folder {str(out.resolve().parent)!r}")
+
+
+def write(out: Path, content: bytes) -> None:
+    """Write a result, naming the file that cannot be written."""
+    from workbench.files import write_atomically
+
+    try:
+        write_atomically(out, content)
+    except OSError as error:
+        raise DataError(f"{out}: cannot be written ({error.strerror})") from None
