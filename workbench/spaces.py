@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
+from workbench.mocap.rotations import check_rotations
 from workbench.validation import (
     MIN_SAMPLES,
     control_point_indices,
@@ -367,21 +368,13 @@ class PoseSpace(Space):
     """
 
     def __init__(self, motion: Motion) -> None:
-        if not isinstance(motion, Motion):
-            raise WorkbenchError(
-                f"motion: got {type(motion).__name__}, want a Motion as read_bvh gives it"
-            )
+        check_motion(motion)
         rotations = finite(np.ascontiguousarray(motion.rotations, dtype=np.float64), "rotations")
         if len(rotations) < MIN_SAMPLES:
             raise WorkbenchError(
                 f"motion {motion.name!r}: got {len(rotations)} frames, want {MIN_SAMPLES} or more"
             )
-        skew = np.abs(rotations @ np.swapaxes(rotations, -1, -2) - np.eye(3)).max()
-        if skew > 1e-6 or np.linalg.det(rotations).min() < 0:
-            raise WorkbenchError(
-                f"rotations of {motion.name!r}: got matrices that are {skew:.2g} from orthogonal "
-                "or mirrored, want rotations (see nearest_rotations)"
-            )
+        check_rotations(f"rotations of {motion.name!r}", rotations)
         if not motion.skeleton.path_weights.any():
             raise WorkbenchError(
                 f"motion {motion.name!r}: no bone of its skeleton has a length, "

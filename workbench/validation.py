@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 from numbers import Integral, Real
 
 import numpy as np
@@ -37,7 +39,7 @@ def as_embedding(
     WorkbenchError
         If the shape is another or a value is not finite.
     """
-    array = np.asarray(points, dtype=np.float64)
+    array = as_numbers(name, points)
     rows = "n_points" if n is None else str(n)
     if array.ndim != 2 or array.shape[1] not in (2, 3) or (n is not None and len(array) != n):
         raise WorkbenchError(f"{name}: got shape {array.shape}, want ({rows}, 2) or ({rows}, 3)")
@@ -93,6 +95,36 @@ def finite(array: NDArray[np.float64], name: str) -> NDArray[np.float64]:
     return array
 
 
+@contextmanager
+def said_in_one_line() -> Iterator[None]:
+    """Turn scikit-learn's refusal of an array into an error of this package.
+
+    Its text stays, because scikit-learn's conventions ask for it, but for the advice to use
+    other estimators.
+
+    Raises
+    ------
+    WorkbenchError
+        In place of a ValueError inside the ``with`` block.
+
+    Examples
+    --------
+    >>> with said_in_one_line():
+    ...     raise ValueError("Input X contains NaN.")
+    Traceback (most recent call last):
+    workbench.errors.WorkbenchError: Input X contains NaN, want finite numbers
+    """
+    try:
+        yield
+    except WorkbenchError:
+        raise
+    except ValueError as error:
+        message = str(error)
+        if message.startswith("Input "):
+            message = message.splitlines()[0].rstrip(".") + ", want finite numbers"
+        raise WorkbenchError(" ".join(message.split())) from None
+
+
 def as_distances(distances: ArrayLike, n: int | None = None) -> NDArray[np.float64]:
     """Check a matrix of distances.
 
@@ -112,7 +144,7 @@ def as_distances(distances: ArrayLike, n: int | None = None) -> NDArray[np.float
     WorkbenchError
         If it is not square, finite, symmetric and at least 0.
     """
-    array = np.asarray(distances, dtype=np.float64)
+    array = as_numbers("distances", distances)
     wanted = array.shape[0] if array.ndim and n is None else n
     if array.shape != (wanted, wanted):
         size = "a square matrix" if n is None else f"({n}, {n})"

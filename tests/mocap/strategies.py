@@ -46,10 +46,10 @@ def _channels(draw: st.DrawFn, with_positions: bool) -> tuple[str, ...]:
 
 
 @st.composite
-def motions(draw: st.DrawFn) -> Motion:
+def motions(draw: st.DrawFn, min_frames: int = 1, max_frames: int = 4) -> Motion:
     """Draw a motion that its skeleton's channels can express, gimbal lock included."""
     skeleton = draw(skeletons())
-    n_frames = draw(st.integers(1, 4))
+    n_frames = draw(st.integers(min_frames, max_frames))
     seed = draw(st.integers(0, 2**32 - 1))
     rng = np.random.default_rng(seed)
     n_angles = sum(len(skeleton.rotation_order(j)) for j in range(skeleton.n_joints))

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from sklearn.utils.validation import check_is_fitted, validate_data
 
 from workbench.errors import AdjustmentWarning, WorkbenchError
-from workbench.validation import require_memory
+from workbench.validation import require_memory, said_in_one_line
 
 #: Results below this many bytes are not worth asking the system for its free memory.
 _SMALL = 2**26
@@ -38,12 +38,13 @@ def control_points(
 
     Raises
     ------
-    ValueError
+    WorkbenchError
         If they do not belong together or are not finite.
     """
-    points, values = validate_data(
-        estimator, X, y, multi_output=True, y_numeric=True, dtype=np.float64
-    )
+    with said_in_one_line():
+        points, values = validate_data(
+            estimator, X, y, multi_output=True, y_numeric=True, dtype=np.float64
+        )
     return np.ascontiguousarray(points), np.asarray(values, dtype=np.float64)
 
 
@@ -69,7 +70,7 @@ def positions(estimator: Any, X: ArrayLike) -> NDArray[np.float64]:
     ------
     NotFittedError
         If nothing was learnt yet.
-    ValueError
+    WorkbenchError
         If the dimensions are others, or a value is not finite.
     """
     if (
@@ -84,7 +85,8 @@ def positions(estimator: Any, X: ArrayLike) -> NDArray[np.float64]:
         points = X
     else:
         check_is_fitted(estimator)
-        points = validate_data(estimator, X, reset=False, dtype=np.float64)
+        with said_in_one_line():
+            points = validate_data(estimator, X, reset=False, dtype=np.float64)
     return np.ascontiguousarray(points)
 
 

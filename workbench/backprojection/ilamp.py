@@ -192,7 +192,7 @@ class ILAMP(MultiOutputMixin, RegressorMixin, BaseEstimator):
 
         Raises
         ------
-        ValueError
+        WorkbenchError
             If a parameter, a position or a sample is not valid.
 
         Warns

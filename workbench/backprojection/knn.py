@@ -62,7 +62,7 @@ class KNN(MultiOutputMixin, RegressorMixin, BaseEstimator):
 
         Raises
         ------
-        ValueError
+        WorkbenchError
             If a parameter, a position or a sample is not valid.
 
         Warns

@@ -82,10 +82,11 @@ class PoseBackProjector(BaseEstimator):
             If the poses are not finite matrices of that shape.
         """
         poses = np.asarray(rotations, dtype=np.float64)
-        if poses.ndim != 4 or poses.shape[2:] != (3, 3) or len(poses) != len(np.asarray(points)):
+        n_keys = len(np.asarray(points))
+        if poses.ndim != 4 or poses.shape[2:] != (3, 3) or not 0 < len(poses) == n_keys:
             raise WorkbenchError(
                 f"rotations: got shape {poses.shape}, "
-                f"want ({len(np.asarray(points))}, n_joints, 3, 3)"
+                f"want ({n_keys or 'n_keys'}, n_joints, 3, 3), at least one"
             )
         finite(poses, "rotations")
         regressor = fresh_copy(self._template())

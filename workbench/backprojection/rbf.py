@@ -122,7 +122,7 @@ class RBF(MultiOutputMixin, RegressorMixin, BaseEstimator):
 
         Raises
         ------
-        ValueError
+        WorkbenchError
             If a parameter, a position or a sample is not valid.
 
         Warns

@@ -10,7 +10,8 @@ from sklearn.base import BaseEstimator, MultiOutputMixin, RegressorMixin, clone,
 from sklearn.multioutput import MultiOutputRegressor
 from sklearn.neighbors import KNeighborsRegressor
 from sklearn.utils import get_tags
-from sklearn.utils.validation import check_is_fitted, validate_data
+
+from workbench.backprojection.checking import control_points, positions
 
 
 def predicts_one_number(method: Any) -> bool:
@@ -70,9 +71,7 @@ class RegressorBackProjector(MultiOutputMixin, RegressorMixin, BaseEstimator):
         RegressorBackProjector
             Itself.
         """
-        points, targets = validate_data(
-            self, X, y, multi_output=True, y_numeric=True, dtype=np.float64
-        )
+        points, targets = control_points(self, X, y)
         if self.regressor is None:
             regressor = KNeighborsRegressor(n_neighbors=min(5, len(points)))
         else:
@@ -94,6 +93,5 @@ class RegressorBackProjector(MultiOutputMixin, RegressorMixin, BaseEstimator):
         -------
         ndarray of shape (n_points, n_outputs), or (n_points,) if fitted so
         """
-        check_is_fitted(self)
-        points = validate_data(self, X, reset=False, dtype=np.float64)
+        points = positions(self, X)
         return np.asarray(self.regressor_.predict(points), dtype=np.float64)

@@ -7,8 +7,8 @@ from abc import ABC, abstractmethod
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from workbench.errors import WorkbenchError
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
+from workbench.mocap.rotations import check_rotations
 from workbench.mocap.skeleton import Skeleton
 from workbench.validation import control_point_indices, finite
 
@@ -78,14 +78,11 @@ class Interpolator(ABC):
         Raises
         ------
         WorkbenchError
-            If the keyframes are no sorted indices of the clip's frames, each once, or the
-            rotations are not finite.
+            If the keyframes are no sorted indices of the clip's frames, each once, or its
+            matrices are no rotations.
         """
-        if not isinstance(motion, Motion):
-            raise WorkbenchError(
-                f"motion: got {type(motion).__name__}, want a Motion as read_bvh gives it"
-            )
-        finite(motion.rotations, "rotations")
+        check_motion(motion)
+        check_rotations("rotations", finite(motion.rotations, "rotations"))
         keyframes = control_point_indices(keyframes, len(motion), at_least=2)
         keys = self.encode(motion, keyframes)
         return self.decode(keys, keyframes, len(motion), motion.skeleton)

@@ -11,7 +11,7 @@ from workbench.errors import DataError, WorkbenchError
 from workbench.files import write_atomically
 from workbench.mocap.bvh import PositionRule, check_position_rule
 from workbench.mocap.channels import motion_to_euler, rotation_columns
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.skeleton import POSITION_CHANNELS, Skeleton
 
 # Nine decimals keep a round trip far below a millionth of a degree.
@@ -46,6 +46,7 @@ def write_bvh(motion: Motion, path: str | Path, *, positions: PositionRule = "re
     --------
     >>> write_bvh(motion, "walk.bvh")  # doctest: +SKIP
     """
+    check_motion(motion)
     check_position_rule(positions)
     _check_names(motion.skeleton)
     rows = _rows(motion, positions)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from workbench.errors import WorkbenchError
 from workbench.kernels import compiled, compiled_parallel
 from workbench.mocap.elementary import compiled_fused, sine_and_cosine
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.rotations import (
     euler_from_rotations,
     geodesic_angles,
@@ -212,6 +212,7 @@ def motion_to_euler(motion: Motion, *, unwrap: bool = False) -> NDArray[np.float
     ndarray of shape (n_frames, n_rotation_channels)
         Angles in degrees, in file order; :func:`rotations_from_channels` is the way back.
     """
+    check_motion(motion)
     degrees = channels_from_rotations(motion.skeleton, motion.rotations)
     if unwrap:
         starts = np.array(

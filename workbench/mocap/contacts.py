@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from difflib import get_close_matches
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.mocap.kinematics import joint_positions
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.skeleton import Skeleton
 
 # Names that a foot goes by, the best first: the toes turn and rise while the foot stands.
@@ -49,8 +50,10 @@ def find_feet(
     WorkbenchError
         If there is no joint of a name, or neither names nor heights tell.
     """
+    check_motion(motion)
     if feet is not None:
-        return _named(motion.skeleton, [feet] if isinstance(feet, str) else list(feet))
+        single = isinstance(feet, str) or not isinstance(feet, Iterable)
+        return _named(motion.skeleton, [feet] if single else list(feet))
     return feet_by_name(motion.skeleton) or feet_by_height(motion, up=up)
 
 
@@ -157,7 +160,7 @@ def foot_heights(
     return joint_positions(motion)[:, list(find_feet(motion, feet, up=up)), axis]
 
 
-def _named(skeleton: Skeleton, names: list[str]) -> tuple[int, ...]:
+def _named(skeleton: Skeleton, names: list[Any]) -> tuple[int, ...]:
     if not names:
         raise WorkbenchError("feet: got no names, want at least one")
     for name in names:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.kernels import compiled
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.skeleton import Skeleton
 
 
@@ -162,6 +162,7 @@ def root_relative_positions(motion: Motion) -> NDArray[np.float64]:
     ndarray of shape (n_frames, n_joints, 3)
         In file units; the root's own row is zero.
     """
+    check_motion(motion)
     return forward_kinematics(
         motion.skeleton, motion.rotations, joint_translations=motion.joint_translations
     )
@@ -179,6 +180,7 @@ def body_positions(motion: Motion) -> NDArray[np.float64]:
     ndarray of shape (n_frames, n_joints, 3)
         In file units; the root's own row is zero.
     """
+    check_motion(motion)
     rotations = np.array(motion.rotations, dtype=np.float64)
     rotations[:, 0] = np.eye(3)
     return forward_kinematics(
@@ -187,6 +189,7 @@ def body_positions(motion: Motion) -> NDArray[np.float64]:
 
 
 def _motion_nodes(motion: Motion) -> NDArray[np.float64]:
+    check_motion(motion)
     return _node_positions(
         motion.skeleton, motion.rotations, motion.root_translation, motion.joint_translations
     )

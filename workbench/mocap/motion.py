@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -84,4 +85,24 @@ class Motion:
             root_translation=self.root_translation[frames],
             frame_time=self.frame_time * step,
             joint_translations={j: t[frames] for j, t in self.joint_translations.items()},
+        )
+
+
+def check_motion(motion: Any) -> None:
+    """Refuse what is no motion.
+
+    Raises
+    ------
+    WorkbenchError
+        If it is not; the message says how to get one.
+
+    Examples
+    --------
+    >>> check_motion("walk.bvh")
+    Traceback (most recent call last):
+    workbench.errors.WorkbenchError: motion: got str, want a Motion as read_bvh gives it
+    """
+    if not isinstance(motion, Motion):
+        raise WorkbenchError(
+            f"motion: got {type(motion).__name__}, want a Motion as read_bvh gives it"
         )

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.slerp import slerp
 
 
@@ -36,6 +36,7 @@ def resample(motion: Motion, frame_time: float) -> Motion:
     WorkbenchError
         If the frame time is not a positive number.
     """
+    check_motion(motion)
     if not 0 < frame_time < np.inf:
         raise WorkbenchError(f"frame_time: got {frame_time}, want seconds above 0")
     last = len(motion) - 1

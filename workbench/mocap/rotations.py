@@ -194,6 +194,33 @@ def rotations_from_vectors(vectors: ArrayLike) -> NDArray[np.float64]:
     return Rotation.from_rotvec(array.reshape(-1, 3)).as_matrix().reshape(*array.shape, 3)
 
 
+def check_rotations(name: str, matrices: NDArray[np.float64]) -> None:
+    """Refuse matrices that are no rotations.
+
+    Parameters
+    ----------
+    name : str
+        The argument's name, for the message.
+    matrices : ndarray of shape (..., 3, 3)
+        Finite matrices.
+
+    Raises
+    ------
+    WorkbenchError
+        If one is mirrored, or further than 1e-6 from orthogonal.
+
+    Examples
+    --------
+    >>> check_rotations("pose", axis_rotation("X", [0.0, 90.0]))
+    """
+    skew = np.abs(matrices @ np.swapaxes(matrices, -1, -2) - np.eye(3)).max(initial=0.0)
+    if skew > 1e-6 or np.linalg.det(matrices).min(initial=1.0) < 0:
+        raise WorkbenchError(
+            f"{name}: got matrices that are {skew:.2g} from orthogonal or mirrored, "
+            "want rotations (see nearest_rotations)"
+        )
+
+
 def unwrap_degrees(angles: ArrayLike) -> NDArray[np.float64]:
     """Remove jumps of full turns from angle curves.
 

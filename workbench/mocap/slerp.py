@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.kernels import compiled
+from workbench.validation import as_numbers
 
 
 @compiled
@@ -96,8 +97,7 @@ def slerp(a: ArrayLike, b: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
     >>> slerp(np.eye(3), quarter_turn, 0.5)[0].round(4)
     array([ 0.7071, -0.7071,  0.    ])
     """
-    a, b = np.asarray(a, dtype=np.float64), np.asarray(b, dtype=np.float64)
-    t = np.asarray(t, dtype=np.float64)
+    a, b, t = as_numbers("a", a), as_numbers("b", b), as_numbers("t", t)
     if a.shape[-2:] != (3, 3) or b.shape[-2:] != (3, 3):
         raise WorkbenchError(f"a, b: got shapes {a.shape} and {b.shape}, want (..., 3, 3)")
     try:

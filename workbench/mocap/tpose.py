@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.rotations import geodesic_angles
 
 # On 36 clips of the CMU conversion, at 120 frames a second, the jump out of the T-pose is 21
@@ -34,6 +34,7 @@ def has_tpose(motion: Motion) -> bool:
     -------
     bool
     """
+    check_motion(motion)
     if len(motion) < 3:
         return False
     turns = geodesic_angles(motion.rotations[1:], motion.rotations[:-1]).mean(axis=1)

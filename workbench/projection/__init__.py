@@ -151,8 +151,9 @@ def scale_to_unit_square(embedding: NDArray[np.float64]) -> NDArray[np.float64]:
     Raises
     ------
     WorkbenchError
-        If all points coincide.
+        If all points coincide, or they are no finite positions.
     """
+    embedding = as_embedding(embedding)
     low = embedding.min(axis=0)
     extent = float(np.ptp(embedding, axis=0).max())
     if not extent > 0:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from abc import abstractmethod
+from numbers import Integral
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from sklearn.base import BaseEstimator, TransformerMixin
 from sklearn.utils.validation import validate_data
 
 from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
-from workbench.validation import as_numbers, finite, require_memory
+from workbench.validation import as_numbers, finite, require_memory, said_in_one_line
 
 
 class Projector(TransformerMixin, BaseEstimator):
@@ -32,6 +33,9 @@ class Projector(TransformerMixin, BaseEstimator):
 
     n_components: int
     embedding_: NDArray[np.float64]
+
+    #: Values of the parameter ``metric``, of projectors that have it.
+    _metrics: tuple[str, ...] = ("euclidean", "precomputed")
 
     def fit(
         self,
@@ -76,12 +80,16 @@ class Projector(TransformerMixin, BaseEstimator):
 
         Raises
         ------
+        WorkbenchError
+            If a parameter is not valid, or the samples are no finite numbers of that shape.
         DataError
             If the free memory does not suffice.
         """
-        samples: NDArray[np.float64] = validate_data(
-            self, X, dtype=np.float64, ensure_min_samples=2
-        )
+        with said_in_one_line():
+            samples: NDArray[np.float64] = validate_data(
+                self, X, dtype=np.float64, ensure_min_samples=2
+            )
+        self._check_parameters()
         if getattr(self, "metric", None) == "precomputed":
             _check_distances(samples)
         require_memory(
@@ -89,12 +97,20 @@ class Projector(TransformerMixin, BaseEstimator):
             f"{type(self).__name__} of {len(samples)} samples",
             "take a sample of them, or project in two steps (RBFP or LAMP around control points)",
         )
-        self.embedding_ = np.asarray(self._project(samples), dtype=np.float64)
+        self.embedding_ = self._widened(np.asarray(self._project(samples), dtype=np.float64))
         return self.embedding_
 
     @abstractmethod
     def _project(self, X: NDArray[np.float64]) -> NDArray[np.float64]:
         """Project validated samples."""
+
+    def _check_parameters(self) -> None:
+        """Refuse parameters that no projector could use; a subclass may refuse more."""
+        for name in ("n_components", "n_neighbors"):
+            check_whole_number(name, getattr(self, name, 1), at_least=1)
+        metric = getattr(self, "metric", self._metrics[0])
+        if metric not in self._metrics:
+            raise WorkbenchError(f"metric: got {metric!r}, want one of {', '.join(self._metrics)}")
 
     def _memory(
         self,
@@ -114,6 +130,11 @@ class Projector(TransformerMixin, BaseEstimator):
             stacklevel=4,
         )
         return limit
+
+    def _widened(self, embedding: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Add zeros for dimensions that the data do not have, such as a table's second column."""
+        missing = getattr(self, "n_components", 0) - embedding.shape[1]
+        return np.pad(embedding, ((0, 0), (0, missing))) if missing > 0 else embedding
 
     def _positions(self, X: ArrayLike) -> NDArray[np.float64]:
         """Check positions on the map, for the inverse of a projector that has one."""
@@ -145,6 +166,18 @@ class Projector(TransformerMixin, BaseEstimator):
         tags = super().__sklearn_tags__()
         tags.input_tags.pairwise = getattr(self, "metric", None) == "precomputed"
         return tags
+
+
+def check_whole_number(name: str, value: Any, at_least: int) -> None:
+    """Refuse a parameter that is no whole number, or too small.
+
+    Raises
+    ------
+    WorkbenchError
+        If it is.
+    """
+    if not isinstance(value, Integral) or isinstance(value, bool) or value < at_least:
+        raise WorkbenchError(f"{name}: got {value!r}, want a whole number from {at_least}")
 
 
 def _check_distances(X: NDArray[np.float64]) -> None:

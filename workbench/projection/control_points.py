@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import DegenerateDataWarning, WorkbenchError
-from workbench.spaces import Space, check_space
-from workbench.validation import as_embedding, control_point_indices, finite
+from workbench.spaces import PoseSpace, Space, check_space
+from workbench.validation import as_embedding, as_numbers, control_point_indices, finite
 
 # Entries of the table of distances of one block: 2 MB, so that it stays in a core's cache.
 _BLOCK_ENTRIES = 250_000
@@ -69,7 +69,7 @@ class ControlPointProjector(ABC):
         check_space(space)
         indices = control_point_indices(control_points, len(space))
         wanted = as_embedding(positions, "positions", len(indices))
-        different, self.positions_ = _merge_equal(space.features[indices], wanted)
+        different, self.positions_ = _merge_equal(_telling_features(space, indices), wanted)
         self.space_ = space
         self.control_samples_ = space.samples[indices[different]]
         self._fit()
@@ -94,7 +94,7 @@ class ControlPointProjector(ABC):
         """
         if not hasattr(self, "control_samples_"):
             raise WorkbenchError(f"{type(self).__name__}: call fit before transform")
-        array = np.asarray(samples, dtype=np.float64)
+        array = as_numbers("samples", samples)
         if array.shape[1:] != self.control_samples_.shape[1:]:
             wanted = ("n_samples", *self.control_samples_.shape[1:])
             raise WorkbenchError(
@@ -115,6 +115,14 @@ class ControlPointProjector(ABC):
     @abstractmethod
     def _transform(self, samples: NDArray[np.float64]) -> NDArray[np.float64]:
         """Place a block of validated samples."""
+
+
+def _telling_features(space: Space, indices: NDArray[np.intp]) -> NDArray[np.float64]:
+    """Give the features of some samples without those that no distance sees."""
+    if not isinstance(space, PoseSpace):
+        return space.features[indices]
+    # Joints without a bone have no weight in D_q, so poses that differ in them are the same.
+    return space.samples[indices][:, space.weights > 0].reshape(len(indices), -1)
 
 
 def _merge_equal(

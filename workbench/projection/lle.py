@@ -40,7 +40,9 @@ class LLE(Projector):
         n_neighbors = self._at_most("n_neighbors", len(X) - 1, f"{len(X)} samples")
         # The dense solver needs no random start and does not fail on singular matrices.
         model = LocallyLinearEmbedding(
-            n_neighbors=n_neighbors, n_components=self.n_components, eigen_solver="dense"
+            n_neighbors=n_neighbors,
+            n_components=min(self.n_components, X.shape[1], len(X) - 1),
+            eigen_solver="dense",
         )
         embedding: NDArray[np.float64] = model.fit_transform(X)
         self._tell_parts(

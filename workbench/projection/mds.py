@@ -12,7 +12,9 @@ from workbench.projection.base import Projector
 class MDS(Projector):
     """Project so that scalar products are kept best (Costa 2018, Alg. 6).
 
-    The coordinates are √λ_j · E_j, as in classical scaling; λ_j · E_j is printed.
+    The coordinates are √λ_j · E_j, as in classical scaling; λ_j · E_j is printed. They are 0
+    where λ_j is negative, which happens with few samples, or distances that no coordinates
+    have.
 
     Parameters
     ----------
@@ -31,7 +33,8 @@ class MDS(Projector):
         return 33.0 * shape[0] ** 2
 
     def _project(self, X: NDArray[np.float64]) -> NDArray[np.float64]:
-        embedding: NDArray[np.float64] = ClassicalMDS(
-            self.n_components, metric=self.metric
-        ).fit_transform(X)
+        model = ClassicalMDS(self.n_components, metric=self.metric)
+        with np.errstate(invalid="ignore"):
+            embedding: NDArray[np.float64] = model.fit_transform(X)
+        embedding[:, model.eigenvalues_ < 0] = 0.0
         return embedding

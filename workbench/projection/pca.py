@@ -23,7 +23,7 @@ class PCA(Projector):
     Attributes
     ----------
     components_ : ndarray of shape (n_components, n_features)
-        The directions.
+        The directions; zeros where there are fewer features or samples than components.
     mean_ : ndarray of shape (n_features,)
         Mean of the samples.
 
@@ -45,7 +45,7 @@ class PCA(Projector):
         # Exact, so that the result does not depend on a seed.
         model = SklearnPCA(min(self.n_components, *X.shape), svd_solver="full")
         embedding = model.fit_transform(X)
-        self.components_, self.mean_ = model.components_, model.mean_
+        self.components_, self.mean_ = self._widened(model.components_.T).T, model.mean_
         return embedding
 
     def transform(self, X: ArrayLike) -> NDArray[np.float64]:

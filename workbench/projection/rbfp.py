@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from numbers import Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,10 +88,10 @@ class RBFP(ControlPointProjector):
     ) -> None:
         if kernel not in KERNELS:
             raise WorkbenchError(f"kernel: got {kernel!r}, want one of {', '.join(KERNELS)}")
-        if not 0.0 < epsilon < np.inf:
-            raise WorkbenchError(f"epsilon: got {epsilon}, want a number above 0")
-        if not 0.0 <= smoothing < np.inf:
-            raise WorkbenchError(f"smoothing: got {smoothing}, want a number from 0")
+        if not _is_number(epsilon) or epsilon <= 0.0:
+            raise WorkbenchError(f"epsilon: got {epsilon!r}, want a number above 0")
+        if not _is_number(smoothing) or smoothing < 0.0:
+            raise WorkbenchError(f"smoothing: got {smoothing!r}, want a number from 0")
         self.kernel = kernel
         self.epsilon = epsilon
         self.smoothing = smoothing
@@ -154,3 +156,7 @@ class RBFP(ControlPointProjector):
         values += np.copysign(self.smoothing, values)
         weights: NDArray[np.float64] = vectors @ ((vectors.T @ self.positions_) / values[:, None])
         return weights
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, Real) and bool(np.isfinite(float(value)))

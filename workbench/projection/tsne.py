@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from numbers import Real
+
 import numpy as np
 from numpy.typing import NDArray
 from sklearn.manifold import TSNE as SklearnTSNE  # noqa: N811 - the same name is meant
 
+from workbench.errors import WorkbenchError
 from workbench.projection.base import Projector
 
 
@@ -37,6 +40,11 @@ class TSNE(Projector):
         self.perplexity = perplexity
         self.metric = metric
         self.random_state = random_state
+
+    def _check_parameters(self) -> None:
+        super()._check_parameters()
+        if not isinstance(self.perplexity, Real) or not 0.0 < float(self.perplexity) < np.inf:
+            raise WorkbenchError(f"perplexity: got {self.perplexity!r}, want a number above 0")
 
     def _memory(self, shape: tuple[int, int]) -> float:
         # Sparse affinities to 3 · perplexity neighbours, in some copies.

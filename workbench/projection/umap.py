@@ -11,7 +11,7 @@ from sklearn.utils.validation import check_is_fitted, validate_data
 from umap import UMAP as LearnUMAP  # noqa: N811 - a class, whatever its capitals
 
 from workbench.errors import WorkbenchError
-from workbench.projection.base import Projector
+from workbench.projection.base import Projector, check_whole_number
 
 
 class UMAP(Projector):
@@ -55,6 +55,10 @@ class UMAP(Projector):
         self.min_dist = min_dist
         self.metric = metric
         self.random_state = random_state
+
+    def _check_parameters(self) -> None:
+        super()._check_parameters()
+        check_whole_number("n_neighbors", self.n_neighbors, at_least=2)
 
     def _memory(self, shape: tuple[int, int]) -> float:
         if self.metric == "precomputed":

@@ -12,9 +12,9 @@ from workbench.errors import WorkbenchError
 from workbench.mocap.channels import channels_from_rotations, motion_to_euler, rotation_columns
 from workbench.mocap.contacts import feet_by_name
 from workbench.mocap.kinematics import body_positions
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.skeleton import Skeleton
-from workbench.validation import finite
+from workbench.validation import as_numbers, finite
 
 #: The length that the femur has in Halit 2010, Table 4.1.
 FEMUR_LENGTH = 3.21
@@ -212,8 +212,8 @@ def angle_errors(original: ArrayLike, rebuilt: ArrayLike) -> NDArray[np.float64]
     >>> angle_errors([[0.0, 90.0], [359.0, 90.0]], [[0.0, 92.0], [1.0, 90.0]])
     array([2., 2.])
     """
-    first = finite(np.asarray(original, dtype=np.float64), "original")
-    second = finite(np.asarray(rebuilt, dtype=np.float64), "rebuilt")
+    first = finite(as_numbers("original", original), "original")
+    second = finite(as_numbers("rebuilt", rebuilt), "rebuilt")
     if first.ndim != 2 or not first.size or first.shape != second.shape:
         raise WorkbenchError(
             f"original and rebuilt: got shapes {first.shape} and {second.shape}, "
@@ -249,7 +249,7 @@ def psnr_of_error(mean_squared_error: ArrayLike) -> Any:
     >>> float(psnr_of_error(3.6**2))
     40.0
     """
-    errors = np.asarray(mean_squared_error, dtype=np.float64)
+    errors = as_numbers("mean_squared_error", mean_squared_error)
     if not np.all(errors >= 0):
         raise WorkbenchError("mean_squared_error: got a negative or missing value, want 0 or more")
     with np.errstate(divide="ignore"):
@@ -262,7 +262,8 @@ def _nearest_turn(degrees: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _rebuilt(motion: Motion, rotations: ArrayLike) -> NDArray[np.float64]:
-    array = np.asarray(rotations, dtype=np.float64)
+    check_motion(motion)
+    array = as_numbers("rotations", rotations)
     if array.shape != np.shape(motion.rotations):
         raise WorkbenchError(
             f"rotations: got shape {array.shape}, want {np.shape(motion.rotations)}"

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.validation import MIN_SAMPLES, as_embedding, finite
+from workbench.validation import MIN_SAMPLES, as_embedding, as_numbers, finite
 
 
 def as_points(embedding: ArrayLike) -> NDArray[np.float64]:
@@ -31,7 +31,7 @@ def as_vectors(features: ArrayLike, n: int) -> NDArray[np.float64]:
     WorkbenchError
         If the shape is another or a value is not finite.
     """
-    vectors = np.asarray(features, dtype=np.float64)
+    vectors = as_numbers("features", features)
     if vectors.ndim != 2 or len(vectors) != n:
         raise WorkbenchError(f"features: got shape {vectors.shape}, want ({n}, n_features)")
     return finite(vectors, "features")

@@ -8,10 +8,11 @@ from numpy.typing import ArrayLike, NDArray
 from workbench.errors import WorkbenchError
 from workbench.mocap.distances import position_distance_pairs
 from workbench.mocap.kinematics import forward_kinematics, root_relative_positions
-from workbench.mocap.motion import Motion
+from workbench.mocap.motion import Motion, check_motion
+from workbench.validation import as_numbers, finite
 
 
-def position_error(motion: Motion, rotations: NDArray[np.float64]) -> float:
+def position_error(motion: Motion, rotations: ArrayLike) -> float:
     """Measure how far the joints of a reconstruction are from where they were.
 
     Mean Euclidean distance of joint positions relative to the root's position, over all
@@ -22,18 +23,20 @@ def position_error(motion: Motion, rotations: NDArray[np.float64]) -> float:
     ----------
     motion : Motion
         The original.
-    rotations : ndarray of shape (n_frames, n_joints, 3, 3)
+    rotations : array-like of shape (n_frames, n_joints, 3, 3)
         Rebuilt rotations.
 
     Returns
     -------
     float
         In file units; times ``skeleton.unit_cm`` where that is known.
+
+    Raises
+    ------
+    WorkbenchError
+        If the rotations do not fit the motion, or are not finite.
     """
-    original = root_relative_positions(motion)
-    rebuilt = forward_kinematics(
-        motion.skeleton, rotations, joint_translations=motion.joint_translations
-    )
+    original, rebuilt = _positions(motion, rotations)
     return float(np.linalg.norm(original - rebuilt, axis=2).mean())
 
 
@@ -64,17 +67,27 @@ def position_distances(
     WorkbenchError
         If the rotations or the weights do not fit the motion.
     """
-    if np.shape(rotations) != np.shape(motion.rotations):
+    original, rebuilt = _positions(motion, rotations)
+    joint_weights = np.ones(motion.skeleton.n_joints) if weights is None else weights
+    return position_distance_pairs(original, rebuilt, as_numbers("weights", joint_weights))
+
+
+def _positions(
+    motion: Motion, rotations: ArrayLike
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Place the joints of the original and of the rebuilt frames, seen from the root."""
+    check_motion(motion)
+    array = as_numbers("rotations", rotations)
+    if array.shape != np.shape(motion.rotations):
         raise WorkbenchError(
-            f"rotations: got shape {np.shape(rotations)}, want {np.shape(motion.rotations)}"
+            f"rotations: got shape {array.shape}, want {np.shape(motion.rotations)}"
         )
     rebuilt = forward_kinematics(
-        motion.skeleton, rotations, joint_translations=motion.joint_translations
+        motion.skeleton,
+        finite(array, "rotations"),
+        joint_translations=motion.joint_translations,
     )
-    joint_weights = np.ones(motion.skeleton.n_joints) if weights is None else weights
-    return position_distance_pairs(
-        root_relative_positions(motion), rebuilt, np.asarray(joint_weights, dtype=np.float64)
-    )
+    return root_relative_positions(motion), rebuilt
 
 
 def compression_ratio(
