@@ -237,6 +237,8 @@ def test_the_main_result_of_the_thesis(run):
             "pca or umap",
         ),
         (["project", "uci/iris", "--keep", "150"], "--keep: got 150…150, want indices from 0"),
+        (["project", "uci/iris", "--markers", "x"], "want one of move, exchange"),
+        (["project", "uci/iris", "--markers", "exchange", "--keep", "1"], "--markers exchange"),
         (["keyframes", "cmu/01_01", "--keep", "1", "--keep", "1"], "--keep: got 1, 1, want"),
         (["keyframes", "cmu/01_01", "--keep", "-1"], "--keep: got -1, want numbers from 0"),
         (

@@ -28,6 +28,7 @@ def compact(
     dimensions: options.Dimensions = None,
     optimize: options.Optimize = False,
     optimizer: options.Optimizer = None,
+    markers: options.Markers = None,
     tolerance: Annotated[
         float,
         typer.Option(
@@ -52,9 +53,15 @@ def compact(
     options.check_name(projectors, projector)
     options.check_amount(count, ratio, keep)
     options.check_dimensions(dimensions)
+    options.check_markers(markers, keep)
     second_step = options.chosen_second_step(two_step, control_point_projector)
     chosen = options.chosen_optimizer(optimize, optimizer)
-    spatial = {"--optimize": chosen, "--two-step": second_step, "--dimensions": dimensions}
+    spatial = {
+        "--optimize": chosen,
+        "--two-step": second_step,
+        "--dimensions": dimensions,
+        "--markers": markers,
+    }
     for option, value in spatial.items():
         if interpolator is not None and value is not None:
             raise WorkbenchError(f"{option}: got it with --interpolator, want it with --projector")
@@ -72,7 +79,12 @@ def compact(
         scheme = TemporalScheme(interpolator, selector)
     else:
         scheme = SpatialScheme(
-            projector, selector, optimizer=chosen, two_step=second_step, dimensions=dimensions
+            projector,
+            selector,
+            optimizer=chosen,
+            two_step=second_step,
+            dimensions=dimensions,
+            markers=markers,
         )
     result = scheme.run(space, random_state=seed, **amount)
     compacted = compact_motion(result, interpolator, tolerance=tolerance)

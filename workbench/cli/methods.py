@@ -30,6 +30,7 @@ def project(
     dimensions: options.Dimensions = None,
     optimize: options.Optimize = False,
     optimizer: options.Optimizer = None,
+    markers: options.Markers = None,
     back_projector: options.BackProjector = None,
     standardize: options.Standardize = False,
     label: options.Label = None,
@@ -43,6 +44,7 @@ def project(
     options.check_name(back_projectors, back_projector)
     options.check_amount(count, ratio, keep)
     options.check_dimensions(dimensions)
+    options.check_markers(markers, keep)
     second_step = options.chosen_second_step(two_step, control_point_projector)
     chosen = options.chosen_optimizer(optimize, optimizer)
     writer = _table_writer(out)
@@ -52,7 +54,7 @@ def project(
     space = load(data, label, standardize)
     amount = options.amount(control_points, count, ratio, keep, len(space))
     scheme = SpatialScheme(
-        projector, control_points, back_projector, chosen, second_step, dimensions
+        projector, control_points, back_projector, chosen, second_step, dimensions, markers
     )
     result = scheme.run(space, random_state=seed, **amount)
     values = {

@@ -13,6 +13,7 @@ from workbench.backprojection import back_projectors
 from workbench.errors import WorkbenchError
 from workbench.interpolation import interpolators
 from workbench.optimization import DEFAULT_OPTIMIZER, optimizers
+from workbench.optimization.markers import marker_searches
 from workbench.projection import control_point_projectors, projectors
 from workbench.registry import Registry
 from workbench.selection import selectors
@@ -86,6 +87,12 @@ Dimensions = Annotated[
 ]
 Optimize = Annotated[bool, typer.Option("--optimize", help=f"Optimize by {DEFAULT_OPTIMIZER}.")]
 Optimizer = Annotated[str | None, typer.Option(help=choices(optimizers, "Optimizer"))]
+Markers = Annotated[
+    str | None,
+    typer.Option(
+        help=choices(marker_searches, "Let control points move too, or others take their place")
+    ),
+]
 Standardize = Annotated[
     bool,
     typer.Option("--standardize", help="Bring each column to zero mean and unit variance first."),
@@ -156,6 +163,15 @@ def chosen_second_step(two_step: bool, control_point_projector: str | None) -> s
     """Settle what places the rest around control points; None for a projection in one step."""
     check_name(control_point_projectors, control_point_projector)
     return control_point_projector or (DEFAULT_CONTROL_POINT_PROJECTOR if two_step else None)
+
+
+def check_markers(markers: str | None, keep: Sequence[int] | None) -> None:
+    """Refuse an unknown search for markers, and one that could give up samples to keep."""
+    check_name(marker_searches, markers)
+    if markers == "exchange" and keep:
+        raise WorkbenchError(
+            "--keep: got it with --markers exchange, which takes other samples; want --markers move"
+        )
 
 
 def check_dimensions(dimensions: int | None) -> None:
