@@ -54,13 +54,13 @@ def growth(curves: NDArray[np.float64]) -> Measurement:
             motion_saliency(curves[:n], SIGMA)
             times[n].append(time.perf_counter() - start)
     exponent = growth_exponent({n: median(seconds) for n, seconds in times.items()})
-    row = time_of(f"saliency, from {sizes[0]:,} to {sizes[1]:,} frames", lambda: None, below=1.0)
+    row = time_of(
+        f"saliency, from {sizes[0]:,} to {sizes[1]:,} frames",
+        lambda: motion_saliency(curves, SIGMA),
+        below=1.0,
+    )
     return replace(
-        row,
-        target="exponent at most 1.1",
-        seconds=median(times[N_FRAMES]),
-        met=exponent <= 1.1,
-        note=f"exponent {exponent:.2f}",
+        row, target="exponent at most 1.1", met=exponent <= 1.1, note=f"exponent {exponent:.2f}"
     )
 
 

@@ -105,10 +105,14 @@ def test_one_foot_is_not_enough(names):
 
 def test_feet_of_bundled_and_real_skeletons(real_mocap):
     """On all conversions and originals at hand, both feet are found, and are the lowest limbs."""
-    for path in sorted((real_mocap / "asf_amc").glob("*.asf")):
+    originals = sorted((real_mocap / "asf_amc").glob("*.asf"))
+    conversions = sorted((real_mocap / "bvh").glob("0[15]_0[13].bvh"))
+    assert originals
+    assert conversions
+    for path in originals:
         skeleton = read_asf(path).skeleton
         assert [skeleton.names[joint] for joint in feet_by_name(skeleton)] == ["lfoot", "rfoot"]
-    for path in sorted((real_mocap / "bvh").glob("0[15]_0[13].bvh")):
+    for path in conversions:
         motion = read_bvh(path)[1:]
         names = motion.skeleton.names
         assert [names[joint] for joint in find_feet(motion)] == ["LeftFoot", "RightFoot"]
@@ -173,9 +177,10 @@ def test_the_axis_that_points_up_can_be_another(walker):
         (("b33",), "y", "feet: got 'b33', want names of joints such as .*b3"),
         ((), "y", "feet: got no names"),
         ((3,), "y", "feet: got 3, want names"),
+        (3, "y", "feet: got 3, want names"),
         (None, "w", "up: got 'w', want 'x', 'y' or 'z'"),
     ],
-    ids=["unknown", "none", "number", "axis"],
+    ids=["unknown", "none", "number", "no list", "axis"],
 )
 def test_bad_feet_are_refused(walker, feet, up, message):
     """The message names the argument and what would do."""

@@ -194,10 +194,27 @@ def test_a_foot_takes_the_place_of_a_component_and_wins(curves):
     assert found.curves.shape == (600, 6)
     assert found.is_foot.tolist() == [False] * 5 + [True]
     steps = np.flatnonzero(found.candidates[:, 5])
+    assert len(steps)
     assert np.all(np.abs(steps - 299.5) <= 30)  # within two widths of the widest window
     for (first, last), keyframe in zip(found.clusters, found.keyframes, strict=True):
         if found.candidates[first : last + 1, 5].any():
             assert found.candidates[keyframe, 5]
+
+
+def test_a_foot_at_rest_wins_nothing(curves):
+    """Rounding errors of a foot that stands still are not taken for contacts."""
+    rounding = np.random.default_rng(4).choice([90.2, np.nextafter(90.2, 91)], 600)
+    step = np.where(np.arange(600) < 300, 90.2, 95.0)
+    found = motion_saliency(curves, 6, 8, foot_heights=np.column_stack([step, rounding]))
+    assert found.candidates[:, 6].any()
+    assert not found.saliency[:, 7].any()
+
+
+@pytest.mark.parametrize("scale", [1e200, 1e-200])
+def test_numbers_that_cannot_be_squared_are_refused(curves, scale):
+    """It is said, in place of an overflow somewhere inside."""
+    with pytest.raises(WorkbenchError, match=r"values: got numbers up to \S+e[+-]"):
+        motion_saliency(scale * curves)
 
 
 def test_more_components_than_there_are_is_adjusted(curves):

@@ -141,6 +141,10 @@ def test_a_perfect_reconstruction_has_no_error(jump):
     [
         (lambda m: psnr(m, m.rotations[1:]), r"rotations: got shape \(59, 4, 3, 3\), want \(60"),
         (lambda m: psnr(m, m.rotations * np.nan), "rotations: got nan"),
+        (lambda m: psnr(m, "none"), "rotations: got what is no array of numbers"),
+        (lambda m: psnr(m, -m.rotations), "rotations: got matrices .* mirrored"),
+        (lambda m: body_coordinate_errors(m, 2 * m.rotations), "rotations: got matrices .* orth"),
+        (lambda m: body_coordinate_error(m, m.rotations, femur="long"), "femur: got 'long'"),
         (lambda m: body_coordinate_error(m, m.rotations), "femur: found no leg"),
         (lambda m: body_coordinate_error(m, m.rotations, femur=0), "femur: got 0"),
         (
@@ -149,10 +153,28 @@ def test_a_perfect_reconstruction_has_no_error(jump):
         ),
         (lambda m: angle_errors([[1.0]], [[1.0, 2.0]]), r"got shapes \(1, 1\) and \(1, 2\)"),
         (lambda m: angle_errors([[np.inf]], [[1.0]]), "original: got inf"),
+        (lambda m: angle_errors([["a"]], [[1.0]]), "original: got what is no array of numbers"),
+        (lambda m: psnr_of_error("loud"), "mean_squared_error: got what is no array"),
         (lambda m: psnr_of_error(-1.0), "mean_squared_error: got a negative"),
         (lambda m: psnr_of_error(np.nan), "mean_squared_error: got a negative or missing"),
     ],
-    ids=["shape", "nan", "no leg", "femur", "j", "shapes", "inf", "negative", "missing"],
+    ids=[
+        "shape",
+        "nan",
+        "word",
+        "mirrored",
+        "scaled",
+        "femur word",
+        "no leg",
+        "femur",
+        "j",
+        "shapes",
+        "inf",
+        "letters",
+        "error word",
+        "negative",
+        "missing",
+    ],
 )
 def test_bad_input_is_refused(waving, call, message):
     """The message names the argument."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
@@ -11,10 +12,13 @@ from hypothesis import given, settings
 from tests.selection.conftest import random_motion, selections, still_motion, wave
 from workbench.errors import WorkbenchError
 from workbench.interpolation import interpolators
+from workbench.mocap.rotations import rotations_from_vectors
+from workbench.selection import best_paths
 from workbench.selection.optimal import Optimal
 from workbench.selection.pb import PositionBased
 from workbench.selection.scs import SimpleCurveSimplification
-from workbench.spaces import VectorSpace
+from workbench.selection.tracks import pose_track
+from workbench.spaces import PoseSpace, VectorSpace
 
 OBJECTIVES = {"sum": np.sum, "maximum": np.max}
 
@@ -102,6 +106,18 @@ def test_greedy_selectors_do_not_beat_it(wandering):
     best = objective_of(wandering, Optimal().select(wandering, 9), "slerp", "sum")
     for greedy in (SimpleCurveSimplification(), PositionBased()):
         assert best <= objective_of(wandering, greedy.select(wandering, 9), "slerp", "sum")
+
+
+@pytest.mark.parametrize("objective", list(OBJECTIVES))
+def test_bounds_of_rounding_errors_cut_no_path_off(objective):
+    """At constant speed the best cost is 0; a bound of exactly 0 leaves a path to every count."""
+    turns = np.arange(40)[:, None, None] * np.array([[0.01, 0.02, 0.03]])
+    base = rotations_from_vectors(np.random.default_rng(5).normal(size=(3, 3)))
+    motion = replace(random_motion(40, 0).motion, rotations=base @ rotations_from_vectors(turns))
+    track = pose_track(PoseSpace(motion), "slerp", "optimal")
+    frames, stops = np.arange(40), np.array([0, 39])
+    costs, _ = best_paths._solve(track, frames, stops, np.zeros(6), objective == "maximum")
+    assert np.all(costs[1:, -1] < 1e-12)
 
 
 def test_a_still_motion_costs_nothing():

@@ -7,7 +7,10 @@ import pytest
 
 from workbench.errors import WorkbenchError
 from workbench.schemes import choose_control_points
+from workbench.selection.chord import chord_keyframes
+from workbench.selection.pb import decimated_keyframes
 from workbench.selection.random import Random
+from workbench.selection.uniform import Uniform
 from workbench.spaces import PoseSpace, VectorSpace
 
 
@@ -70,13 +73,23 @@ def test_uniform_selection_spreads_around_fixed_frames(waving):
 
 @pytest.mark.parametrize(
     ("fixed", "message"),
-    [([80], "fixed: got 80"), ([4, 4], "fixed: .*repeated"), (range(10), "at most count=9")],
-    ids=["outside", "twice", "too many"],
+    [
+        ([80], "fixed: got 80"),
+        ([4, 4], "fixed: .*repeated"),
+        (range(10), "at most count=9"),
+        (5, "fixed: got 5, want a list"),
+        ([None, 1], r"fixed: got \[None, 1\], want a list"),
+        ([[1, 2], [3]], "fixed: got .*want a list"),
+    ],
+    ids=["outside", "twice", "too many", "number", "missing", "ragged"],
 )
 def test_bad_fixed_samples_are_refused(table, fixed, message):
     """The message names the argument."""
     with pytest.raises(WorkbenchError, match=message):
-        choose_control_points(table, "uniform", count=9, fixed=fixed)
+        Uniform().select(table, 9, fixed=fixed)
+    for of_curves in (chord_keyframes, decimated_keyframes):
+        with pytest.raises(WorkbenchError, match=message):
+            of_curves(table.samples, 9, fixed=fixed)
 
 
 def test_a_selector_that_knows_no_fixed_samples_says_so(table):

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import DegenerateDataWarning, WorkbenchError
 from workbench.mocap.curve_saliency import as_curves, check_sigma, curve_saliency
-from workbench.mocap.principal_curves import principal_curves
+from workbench.mocap.principal_curves import columns_vary, principal_curves
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +22,7 @@ class MotionSaliency:
     ----------
     curves : ndarray of shape (n_frames, n_curves)
         Principal components of the motion, the most important first, then the heights of the
-        feet, where these were given, at zero mean and unit variance.
+        feet, where these were given, at zero mean and unit variance (0 for a foot at rest).
     weights : ndarray of shape (n_curves,)
         Eigenvalue of each component; a foot has that of the first.
     is_foot : ndarray of bool, of shape (n_curves,)
@@ -147,8 +147,8 @@ def motion_saliency(
     Raises
     ------
     WorkbenchError
-        If there are fewer than 3 frames, values that are not finite, or a parameter is out of
-        range.
+        If there are fewer than 3 frames, values that are not finite or cannot be squared, or a
+        parameter is out of range.
 
     Warns
     -----
@@ -180,8 +180,9 @@ def motion_saliency(
     components, eigenvalues, explained = principal_curves(
         array, n_components, variance=variance, standardize=standardize, n_feet=n_feet
     )
-    spreads = heights.std(axis=0)
-    heights = (heights - heights.mean(axis=0)) / np.where(spreads > 0, spreads, 1.0)
+    # A foot at rest stays 0: standardised, its rounding errors would win every cluster.
+    spreads = np.where(columns_vary(heights), heights.std(axis=0), np.inf)
+    heights = (heights - heights.mean(axis=0)) / spreads
     saliency = np.concatenate(
         [
             curve_saliency(components, sigma, curvature=curvature),

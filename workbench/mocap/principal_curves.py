@@ -16,6 +16,9 @@ MIN_COMPONENTS = 7
 # nothing but rounding errors, which standardising would make as large as a movement.
 _CONSTANT = 1e-9
 
+# Between these, squares and their sums neither overflow nor vanish.
+_SMALLEST, _LARGEST = 1e-130, 1e130
+
 
 def principal_curves(
     values: NDArray[np.float64],
@@ -56,7 +59,8 @@ def principal_curves(
     Raises
     ------
     WorkbenchError
-        If the number or the share is out of range.
+        If the number or the share is out of range, or the values are too large or too small to
+        be squared.
 
     Warns
     -----
@@ -79,11 +83,15 @@ def principal_curves(
     ):
         beyond = f" beside the {n_feet} of the feet" if n_feet else ""
         raise WorkbenchError(f"n_components: got {n_components!r}, want at least 1{beyond}")
-    lowest, highest = values.min(axis=0), values.max(axis=0)
-    largest = max(-lowest.min(initial=0.0), highest.max(initial=0.0))
-    varies = highest - lowest > _CONSTANT * largest
+    varies = columns_vary(values)
     if not varies.any():
         return np.empty((len(values), 0)), np.empty(0), 0.0
+    largest = float(np.abs(values).max())
+    if not _SMALLEST < largest < _LARGEST:
+        raise WorkbenchError(
+            f"values: got numbers up to {largest:g}, want the largest between {_SMALLEST:g} and "
+            f"{_LARGEST:g}, so that their squares are finite and not 0"
+        )
     centred = values - values.mean(axis=0)
     if not varies.all():
         centred = centred[:, varies]
@@ -106,3 +114,26 @@ def principal_curves(
     kept = min(max(1, n_components - n_feet), rank)
     curves = centred @ (scales[:, None] * vectors[:, :kept])
     return curves, eigenvalues[:kept], float(shares[kept - 1])
+
+
+def columns_vary(values: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Tell which columns vary by more than rounding errors of the largest value of all.
+
+    Parameters
+    ----------
+    values : ndarray of shape (n_frames, n_values)
+        Finite numbers, at least one frame.
+
+    Returns
+    -------
+    ndarray of bool, of shape (n_values,)
+
+    Examples
+    --------
+    >>> columns_vary(np.array([[1.0, 90.0], [2.0, 90.0 + 1e-13]]))
+    array([ True, False])
+    """
+    lowest, highest = values.min(axis=0), values.max(axis=0)
+    largest = max(-lowest.min(initial=0.0), highest.max(initial=0.0))
+    # Halves, because the difference of the largest numbers is none.
+    return highest / 2.0 - lowest / 2.0 > _CONSTANT / 2.0 * largest

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from numbers import Real
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from workbench.mocap.channels import channels_from_rotations, motion_to_euler, r
 from workbench.mocap.contacts import feet_by_name
 from workbench.mocap.kinematics import body_positions
 from workbench.mocap.motion import Motion, check_motion
+from workbench.mocap.rotations import check_rotations
 from workbench.mocap.skeleton import Skeleton
 from workbench.validation import as_numbers, finite
 
@@ -59,7 +61,8 @@ def body_coordinate_error(
     Raises
     ------
     WorkbenchError
-        If the shape is another, the femur is not found, or a parameter is not above 0.
+        If the shape is another, a matrix is no rotation, the femur is not found, or a parameter
+        is not above 0.
     """
     return float(
         body_coordinate_errors(motion, rotations, femur=femur, n_dimensions=n_dimensions).mean()
@@ -92,8 +95,8 @@ def body_coordinate_errors(
     rebuilt = replace(motion, rotations=_rebuilt(motion, rotations))
     length = femur_length(motion.skeleton) if femur is None else femur
     for name, value in (("femur", length), ("n_dimensions", n_dimensions)):
-        if not 0 < value < np.inf:
-            raise WorkbenchError(f"{name}: got {value}, want a number above 0")
+        if not isinstance(value, Real) or not 0 < value < np.inf:
+            raise WorkbenchError(f"{name}: got {value!r}, want a number above 0")
     errors = body_positions(motion) - body_positions(rebuilt)
     squares = np.einsum("fjc,fjc->f", errors, errors)
     return squares * (FEMUR_LENGTH / length) ** 2 / n_dimensions
@@ -142,7 +145,8 @@ def psnr(motion: Motion, rotations: ArrayLike) -> float:
     Raises
     ------
     WorkbenchError
-        If the shape is another, or a joint has a rotation that its channels cannot express.
+        If the shape is another, a matrix is no rotation, or one that its joint's channels cannot
+        express.
     """
     return float(psnr_of_error(joint_angle_errors(motion, rotations).mean()))
 
@@ -168,7 +172,8 @@ def joint_angle_errors(motion: Motion, rotations: ArrayLike) -> NDArray[np.float
     Raises
     ------
     WorkbenchError
-        If the shape is another, or a joint has a rotation that its channels cannot express.
+        If the shape is another, a matrix is no rotation, or one that its joint's channels cannot
+        express.
     """
     original = motion_to_euler(motion, unwrap=True)
     rebuilt = channels_from_rotations(motion.skeleton, _rebuilt(motion, rotations))
@@ -268,4 +273,5 @@ def _rebuilt(motion: Motion, rotations: ArrayLike) -> NDArray[np.float64]:
         raise WorkbenchError(
             f"rotations: got shape {array.shape}, want {np.shape(motion.rotations)}"
         )
-    return finite(array, "rotations")
+    check_rotations("rotations", finite(array, "rotations"))
+    return array

@@ -1,7 +1,16 @@
 """Selectors: which samples become control points or keyframes.
 
 ``select(space, count)`` returns sorted indices; see
-:class:`~workbench.selection.base.Selector`.
+:class:`~workbench.selection.base.Selector`. Each selector is a module of its own:
+
+- any samples: ``uniform``, ``random``, ``rols``;
+- frames of a motion: ``scs``, ``pb``, ``chord``, ``optimal``, ``saliency`` (whose method is in
+  :mod:`workbench.mocap.motion_saliency`).
+
+The other modules are parts of these: ``base`` of all; ``tracks`` and ``track_errors`` lay a
+motion out and measure frames interpolated between two keys; ``splitting`` and
+``worst_frames`` split a motion at its worst frame; ``best_paths`` is the dynamic programming
+behind ``optimal``.
 """
 
 from __future__ import annotations

@@ -81,10 +81,13 @@ def fixed_samples(fixed: Iterable[int], n_samples: int, count: int) -> NDArray[n
     WorkbenchError
         If they are no indices of samples, repeated, or more than ``count``.
     """
-    listed = np.asarray(list(fixed))
+    try:
+        listed = np.sort(np.asarray(list(fixed)))
+    except (TypeError, ValueError):
+        raise WorkbenchError(f"fixed: got {fixed!r}, want a list of sample indices") from None
     if not listed.size:
         return np.empty(0, dtype=np.intp)
-    indices = control_point_indices(np.sort(listed), n_samples, name="fixed")
+    indices = control_point_indices(listed, n_samples, name="fixed")
     if len(indices) > count:
         raise WorkbenchError(
             f"fixed: got {len(indices)} samples that must stay, want at most count={count}"

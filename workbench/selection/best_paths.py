@@ -19,8 +19,9 @@ safe. All errors are at least 0, hence so are all legs.
    the part is too much.
 
 Neither the length of a leg nor the number of frames between keys is limited. The bounds B
-come from SCS, then from the same procedure with every 16th and every 4th frame as possible
-keys, which errs by a few per cent and takes 1/256 and 1/16 of the time.
+come from SCS, then from the same procedure with only some frames as possible keys: every
+16th, then every 4th (more steps of 4 where keys are few, none where they are many), which
+errs by a few per cent and takes 1/256 and 1/16 of the time.
 """
 
 from __future__ import annotations
@@ -38,8 +39,10 @@ from workbench.selection.track_errors import BLOCK, frame_errors
 from workbench.selection.tracks import Track
 from workbench.selection.worst_frames import WorstFrames
 
-# Sums of the same errors in another order differ by rounding, which must not cut a path off.
+# Sums of the same errors differ by rounding, which must not cut a path off: relatively, and
+# where the best path costs nothing but rounding errors, such as at constant speed, by any factor.
 _ROUNDING = 1.0 + 1e-9
+_ROUNDING_OF_FRAME = 1e-12
 
 
 def best_paths(
@@ -116,7 +119,7 @@ def _solve(
         Position of the key before, in ``frames``.
     """
     n_legs, end = len(bounds) - 1, len(frames) - 1
-    limits = bounds * _ROUNDING
+    limits = bounds * _ROUNDING + track.n_frames * _ROUNDING_OF_FRAME
     # The loosest bound of paths of at least so many legs.
     loosest = np.maximum.accumulate(limits[::-1])[::-1]
     costs = np.full((n_legs + 1, len(frames)), np.inf)

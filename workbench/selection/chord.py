@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from numbers import Real
 from typing import Any
 
@@ -79,7 +80,7 @@ class ChordSimplification(Selector):
 def chord_keyframes(
     values: ArrayLike,
     count: int,
-    fixed: ArrayLike = (),
+    fixed: Iterable[int] = (),
     *,
     measure: str = "relative",
     time_weight: float = 0.0,
@@ -95,7 +96,7 @@ def chord_keyframes(
         One row per frame, in the order of time; unwrap angles first.
     count : int
         How many frames to select, the first and the last included.
-    fixed : array-like of int
+    fixed : iterable of int
         Frames that must be among them.
     measure, time_weight
         As in :class:`ChordSimplification`; the weight is in the unit of the values.
@@ -118,7 +119,7 @@ def chord_keyframes(
     _check_options(measure, time_weight)
     curves = check_curves(values)
     count = control_point_count(len(curves), count=count)
-    kept = fixed_samples(np.asarray(fixed).tolist(), len(curves), count)
+    kept = fixed_samples(fixed, len(curves), count)
     return _split(curves, with_ends(kept, len(curves), count), count, measure, time_weight)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import heapq
+from collections.abc import Iterable
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -65,7 +66,9 @@ class PositionBased(Selector):
         return _decimated(pose_track(space, self.interpolator, "pb"), keys, count)
 
 
-def decimated_keyframes(values: ArrayLike, count: int, fixed: ArrayLike = ()) -> NDArray[np.intp]:
+def decimated_keyframes(
+    values: ArrayLike, count: int, fixed: Iterable[int] = ()
+) -> NDArray[np.intp]:
     """Drop the frames of curves that linear interpolation misses least.
 
     :class:`PositionBased` for curves of numbers, such as the joint angles of a motion without
@@ -77,7 +80,7 @@ def decimated_keyframes(values: ArrayLike, count: int, fixed: ArrayLike = ()) ->
         One row per frame, in the order of time; unwrap angles first.
     count : int
         How many frames to keep, the first and the last included.
-    fixed : array-like of int
+    fixed : iterable of int
         Frames that must be among them.
 
     Returns
@@ -97,7 +100,7 @@ def decimated_keyframes(values: ArrayLike, count: int, fixed: ArrayLike = ()) ->
     """
     track = value_track(values)
     count = control_point_count(track.n_frames, count=count)
-    kept = fixed_samples(np.asarray(fixed).tolist(), track.n_frames, count)
+    kept = fixed_samples(fixed, track.n_frames, count)
     return _decimated(track, with_ends(kept, track.n_frames, count), count)
 
 

@@ -179,7 +179,7 @@ class Saliency(Selector):
         ranks = np.argsort(-saliency.frame_saliency[keyframes], kind="stable")
         chosen = np.union1d(chosen, keyframes[ranks[: count - len(chosen)]]).astype(np.intp)
         if len(chosen) < count:
-            chosen = Uniform()._select(space, count, chosen)
+            chosen = Uniform().select(space, count, fixed=chosen)
         return chosen
 
     def _values(self, motion: Motion) -> NDArray[np.float64]:
