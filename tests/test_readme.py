@@ -11,7 +11,7 @@ import pytest
 
 from workbench.backprojection import back_projectors
 from workbench.datasets import load_space, loaders
-from workbench.projection import projectors
+from workbench.projection import control_point_projectors, projectors
 from workbench.schemes import SpatialScheme
 from workbench.selection import selectors
 
@@ -41,7 +41,8 @@ def test_the_commands_exist(run, command):
 
 def test_the_examples_for_contributors_run(monkeypatch):
     """The snippets of CONTRIBUTING.md register methods and data that then work by name."""
-    for registry in (projectors, selectors, back_projectors, loaders._registered):
+    registries = (projectors, control_point_projectors, selectors, back_projectors)
+    for registry in (*registries, loaders._registered):
         monkeypatch.setattr(registry, "_entries", dict(registry._entries))
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", text, flags=re.M)
@@ -49,6 +50,8 @@ def test_the_examples_for_contributors_run(monkeypatch):
     space = load_space("mine/cube")
     scheme = SpatialScheme("axes", selector="nearest", back_projector="forest")
     assert scheme.run(space, ratio=0.2, random_state=0).error > 0
+    around = SpatialScheme("axes", two_step="nearest-control-point", selector="nearest")
+    assert 7 in around.run(space, ratio=0.2, fixed=[7], random_state=0).control_points
 
 
 def test_links_and_pictures_are_there():
