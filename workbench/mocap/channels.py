@@ -7,8 +7,8 @@ from numba import prange
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.kernels import compiled, compiled_parallel
-from workbench.mocap.elementary import compiled_fused, sine_and_cosine
+from workbench.kernels import compiled, compiled_fused, compiled_parallel
+from workbench.mocap.elementary import sine_and_cosine
 from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.rotations import (
     euler_from_rotations,

@@ -9,8 +9,8 @@ from numba import prange
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.kernels import compiled, compiled_parallel
-from workbench.mocap.elementary import angle_from_squared_chord, compiled_fused
+from workbench.kernels import compiled, compiled_fused, compiled_parallel
+from workbench.mocap.elementary import angle_from_squared_chord
 from workbench.validation import require_memory
 
 #: Poses in a row or column of a tile: what a tile reads and writes stays in the cache.

@@ -9,12 +9,7 @@ from __future__ import annotations
 
 import math
 
-import numba
-
-#: :data:`workbench.kernels.compiled` for polynomials: a product and the sum it enters may be
-#: rounded once instead of twice, which is half as fast again and no less exact. No other
-#: liberty is taken with the order or the special values of floating-point numbers.
-compiled_fused = numba.njit(cache=True, fastmath={"contract"})
+from workbench.kernels import compiled_fused
 
 # arcsin(√t) / √t = 1 + t · (c_0 + c_1·t + …) for t in [0, 1/2]: interpolation at Chebyshev
 # points, whose relative error (6e-17) is below the rounding of a double.

@@ -12,10 +12,9 @@ import math
 import numpy as np
 from numba import prange
 
-from workbench.kernels import compiled, compiled_parallel
+from workbench.kernels import compiled, compiled_fused, compiled_parallel
 from workbench.mocap.elementary import (
     angle_from_squared_chord,
-    compiled_fused,
     sine_and_cosine,
 )
 from workbench.selection.tracks import EULER, SLERP, Track
