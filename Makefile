@@ -26,6 +26,7 @@ test: $(VENV)/installed ## Run all tests
 	$(BIN)/python -m pytest
 
 bench: $(VENV)/installed ## Measure the hot paths beside their baselines
+	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[bench]'
 	$(BIN)/python -m tests.benchmarks
 
 check: $(VENV)/installed ## Check style, types, imports and notebooks

@@ -7,7 +7,12 @@ import pytest
 
 from workbench.errors import WorkbenchError
 from workbench.registry import Registry
-from workbench.validation import as_embedding, control_point_count, control_point_indices
+from workbench.validation import (
+    as_distances,
+    as_embedding,
+    control_point_count,
+    control_point_indices,
+)
 
 
 @pytest.mark.parametrize(
@@ -79,3 +84,15 @@ def test_registries_are_open_and_name_what_they_hold():
         registry.create("four")
     with pytest.raises(WorkbenchError, match="want a class or function"):
         registry.register("five", 5)
+
+
+def test_a_matrix_that_is_not_symmetric_is_found_anywhere():
+    """One entry that differs from its mirror image is enough, in whatever block it lies."""
+    points = np.random.default_rng(0).random((700, 2))
+    distances = np.linalg.norm(points[:, None] - points, axis=2)
+    assert as_distances(distances) is distances
+    for i, j in [(0, 699), (699, 0), (300, 301), (511, 512)]:
+        broken = distances.copy()
+        broken[i, j] += 0.01
+        with pytest.raises(WorkbenchError, match="not symmetric"):
+            as_distances(broken)
