@@ -14,6 +14,7 @@ from workbench.errors import WorkbenchError
 from workbench.interpolation.linear import Linear
 from workbench.mocap import body_positions, motion_to_euler, rotations_from_channels
 from workbench.mocap.rotations import axis_rotation
+from workbench.mocap.skeleton import Skeleton
 from workbench.quality.animation import (
     angle_errors,
     body_coordinate_error,
@@ -78,6 +79,33 @@ def test_the_femur_is_the_bone_above_the_lower_leg(jump):
     skeleton = jump[0].skeleton
     expected = np.linalg.norm(skeleton.offsets[skeleton.names.index("LeftLeg")])
     assert femur_length(skeleton) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(
+    "leg",
+    [("Hip", "Knee", "Ankle"), ("UpLeg", "Leg", "Foot", "Toe"), ("Hip", "Knee", "Ankle", "Foot")],
+    ids=["ankle", "foot", "ankle and foot"],
+)
+def test_the_femur_hangs_on_the_hip_whatever_the_foot_is_called(leg):
+    """The second joint of the leg is the knee, also where the foot is below the ankle."""
+    assert femur_length(two_legs(leg)) == 2.0
+
+
+def test_toes_alone_do_not_tell_the_femur():
+    """There may be a joint between the toes and the shin."""
+    with pytest.raises(WorkbenchError, match="femur: found no leg"):
+        femur_length(two_legs(("Thigh", "Shin", "Heel", "Toe")))
+
+
+def two_legs(leg):
+    """Make a skeleton of two equal legs, whose bones are 1, 2, 3, … long."""
+    names, parents, offsets = ["Hips"], [-1], [[0.0, 9.0, 0.0]]
+    for side in ("Left", "Right"):
+        for i, part in enumerate(leg):
+            parents.append(len(names) - 1 if i else 0)
+            names.append(side + part)
+            offsets.append([0.0, -1.0 - i, 0.0])
+    return Skeleton(tuple(names), np.array(parents), np.array(offsets), (), ((),) * len(names))
 
 
 def test_psnr_is_the_printed_formula():

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -15,11 +15,11 @@ from workbench.mocap.kinematics import joint_positions
 from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.skeleton import Skeleton
 
-# Names that a foot goes by, the best first: the toes turn and rise while the foot stands.
-_PARTS = ("foot", "feet", "ankle", "toe", "toes", "toebase", "ball")
+#: Names that a foot goes by, the best first: the toes turn and rise while the foot stands.
+PARTS = ("foot", "feet", "ankle", "toe", "toes", "toebase", "ball")
 _SIDES = {"left": "left", "l": "left", "right": "right", "r": "right"}
 _WORD = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+")
-_JOINED = re.compile(rf"(left|right|l|r)({'|'.join(_PARTS)})")
+_JOINED = re.compile(rf"(left|right|l|r)({'|'.join(PARTS)})")
 
 _AXES = ("x", "y", "z")
 
@@ -57,7 +57,7 @@ def find_feet(
     return feet_by_name(motion.skeleton) or feet_by_height(motion, up=up)
 
 
-def feet_by_name(skeleton: Skeleton) -> tuple[int, ...]:
+def feet_by_name(skeleton: Skeleton, parts: Sequence[str] = PARTS) -> tuple[int, ...]:
     """Find the left and the right foot by their names.
 
     Understands what motion files call them: ``LeftFoot``, ``lfoot``, ``L_Foot``, ``foot.R``,
@@ -67,6 +67,8 @@ def feet_by_name(skeleton: Skeleton) -> tuple[int, ...]:
     ----------
     skeleton : Skeleton
         The joints.
+    parts : sequence of str
+        Parts of the body that count as feet, out of ``PARTS``, the best first.
 
     Returns
     -------
@@ -83,8 +85,8 @@ def feet_by_name(skeleton: Skeleton) -> tuple[int, ...]:
     best: dict[str, tuple[int, int]] = {}
     for joint, name in enumerate(skeleton.names):
         side, part = _side_and_part(name)
-        if side and part:
-            rank = (_PARTS.index(part), joint)
+        if side and part in parts:
+            rank = (parts.index(part), joint)
             best[side] = min(best.get(side, rank), rank)
     if len(best) < 2:
         return ()
@@ -180,7 +182,7 @@ def _side_and_part(name: str) -> tuple[str, str]:
     if joined:
         return _SIDES[joined[1]], joined[2]
     side = next((_SIDES[word] for word in words if word in _SIDES), "")
-    part = next((word for word in words if word in _PARTS), "")
+    part = next((word for word in words if word in PARTS), "")
     return side, part
 
 

@@ -12,8 +12,9 @@ from workbench.errors import AdjustmentWarning, WorkbenchError
 
 MIN_COMPONENTS = 7
 
-# A column, or a principal component, whose spread is below this share of the largest holds
-# nothing but rounding errors, which standardising would make as large as a movement.
+# A column whose spread is below this share of the largest value, or a principal component whose
+# variance is below this share of the largest, holds nothing but rounding errors, which
+# standardising would make as large as a movement.
 _CONSTANT = 1e-9
 
 # Between these, squares and their sums neither overflow nor vanish.

@@ -103,12 +103,13 @@ def body_coordinate_errors(
 
 
 def femur_length(skeleton: Skeleton) -> float:
-    """Measure the femur of a skeleton whose feet have common names.
+    """Measure the femur of a skeleton whose ankles or feet have common names.
 
     Parameters
     ----------
     skeleton : Skeleton
-        The joints; a foot hangs on the lower leg, and that on the femur.
+        The joints. The ankle, or the foot where none is called so, hangs on the knee, and
+        that on the hip; toes do not tell how many joints are above them.
 
     Returns
     -------
@@ -118,9 +119,9 @@ def femur_length(skeleton: Skeleton) -> float:
     Raises
     ------
     WorkbenchError
-        If no foot is found by name, or it hangs on no leg.
+        If neither ankles nor feet are found by name, or they hang on no leg.
     """
-    feet = feet_by_name(skeleton)
+    feet = feet_by_name(skeleton, parts=("ankle", "foot", "feet"))
     knee = int(skeleton.parents[feet[0]]) if feet else -1
     if knee < 1:
         raise WorkbenchError("femur: found no leg by the names of joints, want its length")
@@ -155,7 +156,9 @@ def joint_angle_errors(motion: Motion, rotations: ArrayLike) -> NDArray[np.float
     """Measure the mean squared joint-angle error of each frame.
 
     Angles are the Euler angles of each joint's own channels, the root's rotation included. Of
-    all angles that stand for a rebuilt rotation, those nearest to the original ones are taken.
+    the two triples of angles that stand for a rebuilt rotation, the one nearer to the original
+    is taken, and full turns do not count. Near gimbal lock angles tell little: there, rotations
+    that are almost equal may have very different ones.
 
     Parameters
     ----------

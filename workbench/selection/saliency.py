@@ -52,7 +52,8 @@ class Saliency(Selector):
         Whether moments at which a foot touches the ground are handled on their own
         (section 3.3).
     feet : sequence of str, optional
-        Names of the feet's joints; by default they are found by name, else by height.
+        Names of the feet's joints, which are then handled even without ``contacts``; by default
+        they are found by name, else by height.
     foot_sigma : float
         σ of the feet's curves, in frames.
     up : {"x", "y", "z"}
