@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+import workbench
 from tests.contract.refusals import (
     DISTANCES,
     INF,
@@ -46,7 +47,7 @@ from workbench.mocap import (
     write_bvh,
 )
 from workbench.mocap import distances as pose_distances
-from workbench.mocap.contacts import find_feet
+from workbench.mocap.contacts import feet_by_height, find_feet, foot_heights
 from workbench.mocap.curve_saliency import curve_curvature, curve_saliency
 from workbench.mocap.motion_saliency import motion_saliency
 from workbench.mocap.nearest_rotation import nearest_rotations
@@ -69,7 +70,7 @@ from workbench.quality.neighborhoods import (
     vector_neighborhood_quality,
 )
 from workbench.quality.sammon import sammon_stress
-from workbench.quality.shepard import shepard_pairs
+from workbench.quality.shepard import nonmetric_stress, shepard_goodness, shepard_pairs
 from workbench.quality.stress import (
     kruskal_stress,
     normalized_stress,
@@ -129,6 +130,11 @@ def test_spaces_refuse(row):
 ROOT = np.zeros((12, 3))
 BONES = ("a", "b")
 
+#: A motion of a single joint, whose feet nobody can tell.
+ONE_BONE = Motion(
+    Skeleton(("a",), [-1], np.zeros((1, 3)), (), (("Xrotation",),)), ROTATIONS[:, :1], ROOT, 0.1
+)
+
 OF_MOTIONS: tuple[Case, ...] = (
     (
         "joints",
@@ -165,7 +171,12 @@ OF_MOTIONS: tuple[Case, ...] = (
     ("no file", lambda _: read_bvh("nowhere.bvh"), "nowhere.bvh", ""),
     ("no motion file", lambda _: read_motion("nowhere.c3d"), "nowhere.c3d", ""),
     ("write", lambda _: write_bvh(MOTION, "no/such/folder/x.bvh"), "x.bvh", "folder"),
-    ("write nan", lambda _: write_bvh(changed(root_translation=ROOT * NAN), "x.bvh"), "", ""),
+    (
+        "write nan",
+        lambda _: write_bvh(changed(root_translation=ROOT * NAN), "x.bvh"),
+        "root): is moved by nan",
+        "has no channel Xposition",
+    ),
     ("slow", lambda _: resample(MOTION, 0.0), "frame_time: got 0.0", "above 0"),
     ("angles", lambda _: rotations_from_channels(SKELETON, MAP), "got shape (12, 2)", "9"),
     ("poses", lambda _: channels_from_rotations(SKELETON, MAP), "got shape (12, 2)", "3, 3, 3)"),
@@ -177,6 +188,13 @@ OF_MOTIONS: tuple[Case, ...] = (
         "root_translation: got shape (12, 2)",
         "(12, 3)",
     ),
+    (
+        "feet up",
+        lambda _: foot_heights(MOTION, ["upper"], up="w"),
+        "up: got 'w'",
+        "'x', 'y' or 'z'",
+    ),
+    ("no limbs", lambda _: feet_by_height(ONE_BONE), "feet of", "want the names of the feet"),
     ("feet", lambda _: find_feet(MOTION, ["hoof"]), "feet: got 'hoof'", "names of joints"),
 )
 
@@ -249,6 +267,12 @@ OF_ROTATIONS: tuple[Case, ...] = (
         "(n_joints,)",
     ),
     (
+        "D_p of pairs",
+        lambda _: pose_distances.position_distance_pairs(ROOT[:, None], ROOT[:5, None], [1.0]),
+        "a and b: got shapes",
+        "same shape",
+    ),
+    (
         "D_p",
         lambda _: pose_distances.position_distance_matrix(ROTATIONS, WEIGHTS),
         "positions and weights: got shapes",
@@ -309,6 +333,10 @@ BY_NEIGHBORHOODS: tuple[Case, ...] = (
     ("k of words", lambda m: m(DISTANCES, MAP, "all"), "k: got 'all'", "whole number"),
 )
 
+#: Samples that are all as far from each other, and positions in one place.
+EQUAL_PAIRS = shepard_pairs(1.0 - np.eye(12), MAP)
+ONE_PLACE = shepard_pairs(DISTANCES, np.ones((12, 2)))
+
 BY_OTHER_MEASURES: tuple[Case, ...] = (
     ("hit k", lambda _: neighborhood_hit(MAP, np.ones(12), 12), "k: got 12", "from 1 to 11"),
     ("hit labels", lambda _: neighborhood_hit(MAP, [1, 2], 3), "labels: got shape (2,)", "(12,)"),
@@ -331,6 +359,14 @@ BY_OTHER_MEASURES: tuple[Case, ...] = (
         "numbers",
     ),
     ("pairs", lambda _: shepard_pairs(DISTANCES, MAP, 0), "n_pairs: got 0", "above 0"),
+    ("goodness", lambda _: shepard_goodness(EQUAL_PAIRS), "distances: got pairs", "different"),
+    ("order", lambda _: nonmetric_stress(ONE_PLACE), "embedding: got one place", "different"),
+    (
+        "angle errors",
+        lambda _: animation.joint_angle_errors(MOTION, ROTATIONS[:3]),
+        "rotations: got shape (3,",
+        "want (12,",
+    ),
     ("psnr", lambda _: animation.psnr(MOTION, ROTATIONS[:3]), "got shape (3,", "want (12,"),
     ("psnr nan", lambda _: animation.psnr(MOTION, spoiled(ROTATIONS)), "got nan", "finite"),
     ("no error", lambda _: animation.psnr_of_error(-1.0), "mean_squared_error: got", "0 or more"),
@@ -402,4 +438,29 @@ def of_measures() -> Iterator[Refused]:
 @each_row(of_measures())
 def test_measures_refuse(row):
     """The message names the argument, what it got and what it wants."""
+    check_refused(row)
+
+
+BY_EVERY_REGISTRY: tuple[Case, ...] = (
+    ("no name", lambda register: register("", VectorSpace), "got ''", "want a non-empty string"),
+    ("number", lambda register: register(3, VectorSpace), "got 3", "want a non-empty string"),
+    ("no factory", lambda register: register("mine", 3), "got int", "want a class or function"),
+)
+
+
+def of_registries() -> Iterator[Refused]:
+    for register in (
+        "register_back_projector",
+        "register_dataset",
+        "register_interpolator",
+        "register_optimizer",
+        "register_projector",
+        "register_selector",
+    ):
+        yield from refused(register, getattr(workbench, register), BY_EVERY_REGISTRY)
+
+
+@each_row(of_registries())
+def test_registries_refuse(row):
+    """The message names what it got and what it wants."""
     check_refused(row)
