@@ -10,6 +10,7 @@ from workbench.schemes import choose_control_points
 from workbench.selection.chord import chord_keyframes
 from workbench.selection.pb import decimated_keyframes
 from workbench.selection.random import Random
+from workbench.selection.rols import RegularizedOrthogonalLeastSquares
 from workbench.selection.uniform import Uniform
 from workbench.spaces import PoseSpace, VectorSpace
 
@@ -35,6 +36,14 @@ def test_random_selection_depends_on_the_seed_only(table):
     )
     assert first == again != other
     assert len(set(first)) == 16
+
+
+@pytest.mark.parametrize("seed", ["one", -1, 1.5], ids=["word", "negative", "fraction"])
+@pytest.mark.parametrize("selector", [Random, RegularizedOrthogonalLeastSquares])
+def test_what_is_no_seed_is_refused(table, selector, seed):
+    """The message says what a seed may be."""
+    with pytest.raises(WorkbenchError, match=r"random_state: got .*, want a whole"):
+        selector(random_state=seed).select(table, 5)
 
 
 def test_a_selector_object_gets_the_seed_too(table):

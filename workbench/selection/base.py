@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from sklearn.utils import check_random_state
 
 from workbench.errors import WorkbenchError
 from workbench.spaces import Space, check_space
@@ -93,3 +95,29 @@ def fixed_samples(fixed: Iterable[int], n_samples: int, count: int) -> NDArray[n
             f"fixed: got {len(indices)} samples that must stay, want at most count={count}"
         )
     return indices
+
+
+def random_generator(random_state: Any) -> np.random.RandomState:
+    """Make the generator that a selector draws from.
+
+    Parameters
+    ----------
+    random_state : int, RandomState instance or None
+        Seed.
+
+    Returns
+    -------
+    RandomState
+
+    Raises
+    ------
+    WorkbenchError
+        If it is anything else.
+    """
+    try:
+        return check_random_state(random_state)
+    except (TypeError, ValueError):
+        raise WorkbenchError(
+            f"random_state: got {random_state!r}, want a whole number from 0 to 2**32 - 1, "
+            "a RandomState instance or None"
+        ) from None

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.utils import check_random_state
 
-from workbench.selection.base import Selector
+from workbench.selection.base import Selector, random_generator
 from workbench.spaces import Space
 
 
@@ -17,6 +16,18 @@ class Random(Selector):
     ----------
     random_state : int, RandomState instance or None
         Seed; the same seed selects the same samples.
+
+    Raises
+    ------
+    WorkbenchError
+        When selecting, if the seed is anything else.
+
+    Examples
+    --------
+    >>> from workbench.spaces import VectorSpace
+    >>> space = VectorSpace([[0], [1], [2], [3], [4]])
+    >>> len(Random(random_state=0).select(space, 3, fixed=[4]))
+    3
     """
 
     def __init__(self, random_state: int | np.random.RandomState | None = None) -> None:
@@ -24,7 +35,7 @@ class Random(Selector):
 
     def _select(self, space: Space, count: int, fixed: NDArray[np.intp]) -> NDArray[np.intp]:
         others = np.setdiff1d(np.arange(len(space)), fixed)
-        chosen = check_random_state(self.random_state).choice(
+        chosen = random_generator(self.random_state).choice(
             others, count - len(fixed), replace=False
         )
         return np.sort(np.concatenate([fixed, chosen])).astype(np.intp)

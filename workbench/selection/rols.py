@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from sklearn.utils import check_random_state
 
 from workbench.errors import DegenerateDataWarning, WorkbenchError
-from workbench.selection.base import Selector
+from workbench.selection.base import Selector, random_generator
 from workbench.spaces import PoseSpace, Space
 from workbench.validation import as_numbers, finite, require_memory
 
@@ -96,7 +95,7 @@ class RegularizedOrthogonalLeastSquares(Selector):
             f"take a smaller share than subset={self.subset}",
         )
         others = np.setdiff1d(np.arange(len(space)), fixed)
-        random = check_random_state(self.random_state)
+        random = random_generator(self.random_state)
         drawn = random.choice(others, size - len(fixed), replace=False)
         candidates = np.sort(np.concatenate([fixed, drawn])).astype(np.intp)
         distances = space.subset(candidates).distances
