@@ -59,6 +59,7 @@ BY_PARAMETER: dict[str, tuple[Any, ...]] = {
     "n_iterations": (0,),
     "step": (0.5, NAN),
     "order": ("sorted",),
+    "random_state": ("lucky", -1, 0.5),
 }
 
 BY_PROJECT: tuple[Case, ...] = (

@@ -96,6 +96,19 @@ BY_SOME_SELECTORS: tuple[Case, ...] = (
         "outputs: got shape (5, 2)",
         "want (12, n_outputs)",
     ),
+    # The seed of all that draw, by random_generator.
+    (
+        "seed",
+        lambda make: make("random", random_state="lucky").select(TABLE, 3),
+        "random_state: got 'lucky'",
+        "a whole number from 0",
+    ),
+    (
+        "seed below 0",
+        lambda make: make("rols", random_state=-1).select(TABLE, 3),
+        "random_state: got -1",
+        "a whole number from 0",
+    ),
     ("unknown", lambda make: make("best"), "selector: got 'best'", "want one of uniform"),
 )
 

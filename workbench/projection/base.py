@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from sklearn.base import BaseEstimator, TransformerMixin
+from sklearn.utils import check_random_state
 from sklearn.utils.validation import validate_data
 
 from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
@@ -111,6 +112,14 @@ class Projector(TransformerMixin, BaseEstimator):
         metric = getattr(self, "metric", self._metrics[0])
         if metric not in self._metrics:
             raise WorkbenchError(f"metric: got {metric!r}, want one of {', '.join(self._metrics)}")
+        seed = getattr(self, "random_state", None)
+        try:
+            check_random_state(seed)
+        except ValueError:
+            raise WorkbenchError(
+                f"random_state: got {seed!r}, want a whole number from 0 to {2**32 - 1}, "
+                "a RandomState instance or None"
+            ) from None
 
     def _memory(
         self,
