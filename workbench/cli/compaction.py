@@ -11,6 +11,7 @@ from workbench.cli import options
 from workbench.cli.files import check_folder, load_motion, write
 from workbench.errors import WorkbenchError
 from workbench.interpolation import interpolators
+from workbench.optimization import COMPACTION_OPTIMIZER
 from workbench.projection import projectors
 from workbench.selection import selectors
 
@@ -55,7 +56,7 @@ def compact(
     options.check_dimensions(dimensions)
     options.check_markers(markers, keep)
     second_step = options.chosen_second_step(two_step, control_point_projector)
-    chosen = options.chosen_optimizer(optimize, optimizer)
+    chosen = options.chosen_optimizer(optimize, optimizer, COMPACTION_OPTIMIZER)
     spatial = {
         "--optimize": chosen,
         "--two-step": second_step,

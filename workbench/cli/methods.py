@@ -11,6 +11,7 @@ from workbench.backprojection import back_projectors
 from workbench.cli import options
 from workbench.cli.files import check_folder, load, load_motion, write
 from workbench.errors import WorkbenchError
+from workbench.optimization import VISUALIZATION_OPTIMIZER
 from workbench.projection import projectors
 from workbench.selection import selectors
 
@@ -46,7 +47,7 @@ def project(
     options.check_dimensions(dimensions)
     options.check_markers(markers, keep)
     second_step = options.chosen_second_step(two_step, control_point_projector)
-    chosen = options.chosen_optimizer(optimize, optimizer)
+    chosen = options.chosen_optimizer(optimize, optimizer, VISUALIZATION_OPTIMIZER)
     writer = _table_writer(out)
 
     from workbench.schemes import SpatialScheme

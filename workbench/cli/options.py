@@ -12,7 +12,7 @@ import typer
 from workbench.backprojection import back_projectors
 from workbench.errors import WorkbenchError
 from workbench.interpolation import interpolators
-from workbench.optimization import DEFAULT_OPTIMIZER, optimizers
+from workbench.optimization import COMPACTION_OPTIMIZER, VISUALIZATION_OPTIMIZER, optimizers
 from workbench.optimization.markers import marker_searches
 from workbench.projection import control_point_projectors, projectors
 from workbench.registry import Registry
@@ -85,7 +85,14 @@ ControlPointProjector = Annotated[
 Dimensions = Annotated[
     int | None, typer.Option(metavar="2|3", help="Dimensions of the embedding.  [default: 2]")
 ]
-Optimize = Annotated[bool, typer.Option("--optimize", help=f"Optimize by {DEFAULT_OPTIMIZER}.")]
+Optimize = Annotated[
+    bool,
+    typer.Option(
+        "--optimize",
+        help=f"Optimize by the usual one: {COMPACTION_OPTIMIZER} to compact (lowest error), "
+        f"{VISUALIZATION_OPTIMIZER} to look at (samples stay close).",
+    ),
+]
 Optimizer = Annotated[str | None, typer.Option(help=choices(optimizers, "Optimizer"))]
 Markers = Annotated[
     str | None,
@@ -153,10 +160,10 @@ def amount(
     return wanted
 
 
-def chosen_optimizer(optimize: bool, optimizer: str | None) -> str | None:
+def chosen_optimizer(optimize: bool, optimizer: str | None, usual: str) -> str | None:
     """Settle the optimizer's name, checked before anything is computed."""
     check_name(optimizers, optimizer)
-    return optimizer or (DEFAULT_OPTIMIZER if optimize else None)
+    return optimizer or (usual if optimize else None)
 
 
 def chosen_second_step(two_step: bool, control_point_projector: str | None) -> str | None:
