@@ -122,7 +122,7 @@ def test_a_file_that_cannot_be_written_is_named(run, tmp_path, monkeypatch):
     def refuse(*_):
         raise OSError(28, "No space left on device", "some.part")
 
-    monkeypatch.setattr("workbench.files.os.replace", refuse)
+    monkeypatch.setattr("workbench.files.write_atomically", refuse)
     for words in (
         ["compact", "cmu/01_01-jump", "--interpolator", "slerp", "--out", tmp_path / "x.compact"],
         ["project", "uci/iris", "--out", tmp_path / "x.csv"],
