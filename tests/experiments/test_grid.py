@@ -9,6 +9,7 @@ import subprocess
 import sys
 import time
 import warnings
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +23,8 @@ from workbench.experiments import grid
 from workbench.experiments.grid import Advance, describe_failures, run_grid
 from workbench.experiments.runs import Run
 from workbench.experiments.store import ResultStore
+from workbench.optimization import optimizers
+from workbench.optimization.local_search import LocalSearch
 from workbench.projection import projectors
 from workbench.projection.pca import PCA
 from workbench.schemes import SpatialScheme, TemporalScheme
@@ -100,6 +103,77 @@ def test_raw_and_optimized_share_one_projection(tmp_path: Path, counted: list[in
     table = run_grid([Run("uci/iris", scheme, ratio=0.05) for scheme in schemes], tmp_path)
     assert table["status"].tolist() == ["done", "done"]
     assert counted == [150]
+
+
+KINDS = {
+    "one step": {},
+    "two steps": {"two_step": "rbfp"},
+    "two other steps": {"two_step": "lamp"},
+    "three dimensions": {"dimensions": 3},
+    "own inverse": {"back_projector": "inverse"},
+    "markers": {"markers": "move"},
+}
+
+
+@pytest.mark.parametrize("count", [7, 12])
+def test_every_kind_of_scheme_is_stored_as_run_by_hand(tmp_path: Path, count: int):
+    """Runs side by side share nothing that is not theirs, and are found again afterwards."""
+    schemes = [SpatialScheme("pca", selector="random", **kind) for kind in KINDS.values()]
+    runs = [Run("uci/iris", scheme, count=count) for scheme in schemes]
+    table = run_grid(runs, tmp_path)
+    for scheme, (_, row) in zip(schemes, table.iterrows(), strict=True):
+        result = scheme.run(load_space("uci/iris"), count=count, random_state=0)
+        arrays = ResultStore(tmp_path).arrays(row["key"])
+        assert row["error"] == result.error
+        assert row["stress"] == result.quality.stress
+        assert row["projected_stress"] == result.projected_quality.stress
+        assert np.array_equal(arrays["projected"], result.projected)
+        assert np.array_equal(arrays["embedding"], result.embedding)
+    assert table["scheme"].is_unique
+    assert table["two_step"].dropna().tolist() == ["rbfp", "lamp"]
+    assert table["dimensions"].dropna().tolist() == [3]
+    assert table["markers"].dropna().tolist() == ["move"]
+    pd.testing.assert_frame_equal(run_grid(runs, tmp_path), table)
+
+
+def test_only_one_step_projections_are_shared(tmp_path: Path, counted: list[int]):
+    """Raw and optimized share one for each number of dimensions; two steps see half the data."""
+    schemes = [
+        SpatialScheme("counted", selector="random", optimizer=optimizer, **kind)
+        for kind in ({}, {"dimensions": 3}, {"two_step": "rbfp"})
+        for optimizer in (None, "local")
+    ]
+    table = run_grid([Run("uci/iris", scheme, ratio=0.05) for scheme in schemes], tmp_path)
+    assert table["message"].tolist() == [""] * 6
+    assert counted[:2] == [150, 150]
+    assert len(counted) == 4
+    assert max(counted[2:]) < 150
+
+
+def test_a_row_counts_the_effort_of_all_searches(tmp_path: Path):
+    """Derivatives and distances of the optimizer and of the search for markers, added up."""
+    scheme = SpatialScheme("pca", selector="random", optimizer="local", markers="move")
+    row = run_grid([PAIR[0], Run("uci/iris", scheme, ratio=0.05)], tmp_path)
+    result = scheme.run(load_space("uci/iris"), ratio=0.05, random_state=0)
+    effort = result.optimization.effort + result.marker_result.effort
+    assert row["jacobians"].tolist() == [0, effort.jacobians]
+    assert row["distances"].tolist() == [0, effort.distances]
+    assert row["evaluations"].tolist() == [143, effort.evaluations + 143]
+
+
+def test_the_effort_of_a_reticent_optimizer_is_unknown(tmp_path: Path, monkeypatch):
+    """An optimizer of a user's own need not count; its run is stored all the same."""
+
+    class Reticent(LocalSearch):
+        def optimize(self, *arguments, **options):
+            return replace(super().optimize(*arguments, **options), effort=None)
+
+    monkeypatch.setitem(optimizers._entries, "reticent", Reticent)
+    scheme = SpatialScheme("pca", selector="random", optimizer="reticent")
+    row = run_grid([Run("uci/iris", scheme, ratio=0.05)], tmp_path).iloc[0]
+    assert row["status"] == "done"
+    assert row["jacobians"] is None
+    assert row["distances"] is None
 
 
 def test_finished_runs_are_not_computed_again(tmp_path: Path, counted: list[int]):

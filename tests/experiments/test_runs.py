@@ -25,6 +25,9 @@ CHANGES = {
     "dataset": {"dataset": "uci/wine"},
     "projector": {"scheme": SpatialScheme("mds", selector="random")},
     "optimizer": {"scheme": SpatialScheme("pca", selector="random", optimizer="alg12")},
+    "two steps": {"scheme": SpatialScheme("pca", selector="random", two_step="rbfp")},
+    "dimensions": {"scheme": SpatialScheme("pca", selector="random", dimensions=3)},
+    "markers": {"scheme": SpatialScheme("pca", selector="random", markers="move")},
     "kind": {"scheme": TemporalScheme("slerp", selector="random")},
     "ratio": {"ratio": 0.04},
     "count": {"ratio": None, "count": 4},
@@ -75,6 +78,7 @@ def test_key_is_the_same_in_every_process(monkeypatch):
         ("experiments/report.py", False),
         ("figures/style.py", False),
         ("cli/new.py", False),
+        ("compact/file.py", False),
     ],
 )
 def test_digest_notices_code_that_computes(tmp_path: Path, module: str, decides: bool):

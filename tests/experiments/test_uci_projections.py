@@ -36,7 +36,7 @@ def test_panels_are_raw_beside_optimized(table: pd.DataFrame, store: ResultStore
     """Four panels; optimization moves no control point, standardisation changes the data."""
     raw, optimized, raw_standard, optimized_standard = uci_panels(table, WINE, store)
     assert [panel.title for panel in (raw, optimized)] == [
-        "PCA, data as they are",
+        "Force, data as they are",
         "optimized, data as they are",
     ]
     for before, after in ((raw, optimized), (raw_standard, optimized_standard)):
@@ -49,7 +49,7 @@ def test_panels_are_raw_beside_optimized(table: pd.DataFrame, store: ResultStore
 def test_the_table_compares_before_and_after(table: pd.DataFrame):
     """Errors before are those of the raw scheme; the optimizer lowers them."""
     compared = uci_table(table, [WINE])
-    raw = table[table["scheme"] == "pca, random"].set_index("standardize")["error"]
+    raw = table[table["scheme"] == "force, random"].set_index("standardize")["error"]
     assert compared["error", "before"].tolist() == [raw[False], raw[True]]
     assert (compared["error", "after"] < compared["error", "before"]).all()
     assert compared["stress, after / before", "published"].tolist() == [0.72, 0.72]
@@ -60,9 +60,13 @@ def test_the_table_compares_before_and_after(table: pd.DataFrame):
 
 
 def test_the_caption_hides_nothing(table: pd.DataFrame):
-    """Rows, control points, the substitute for Force and the one-step projection are named."""
+    """Rows, control points, the projector and the one-step projection are named."""
     caption = uci_caption(table, WINE)
-    for words in ("178 rows, 5 control points", "One-step projection, not the two-step", "Force"):
+    for words in (
+        "178 rows, 5 control points",
+        "One-step projection, not the two-step",
+        "by Force",
+    ):
         assert words in caption
 
 

@@ -39,6 +39,14 @@ def test_categories_keep_the_order_given():
     assert figure.layout.yaxis.title.text == "error"
 
 
+def test_a_reference_is_a_line_in_the_range_of_the_values():
+    """Ratios near 1 are not squeezed against an axis from 0, which errors start at."""
+    ratios = box_plot({"ours": OURS}, y_title="ratio", reference=1.0)
+    assert [line.y0 for line in ratios.layout.shapes] == [1.0]
+    assert ratios.layout.yaxis.rangemode is None
+    assert box_plot({"ours": OURS}, y_title="error").layout.yaxis.rangemode == "tozero"
+
+
 def test_nothing_to_draw_is_refused():
     """An empty box plot would look like a result."""
     with pytest.raises(WorkbenchError, match="no box"):

@@ -95,6 +95,18 @@ def test_figure_5_13_runs_alone(tmp_path: Path):
     assert sorted(part["kind"] for part in parts) == ["figure", "table", "values"]
 
 
+def test_optimizers_run_on_one_clip(tmp_path: Path):
+    """With one clip and one projector, the notebook makes its figure and its three tables."""
+    parts = _run("optimizers", tmp_path, clips=["cmu/01_01-jump"], projectors=["PCA"])
+    made = {(part["item"], part["kind"], part["name"]) for part in parts}
+    assert made == {
+        ("extra:optimizers", "figure", "extra_optimizers"),
+        ("extra:optimizers", "table", "extra_optimizers"),
+        ("extra:optimizers", "table", "extra_optimizers_higher"),
+        ("extra:optimizers", "table", "extra_optimizers_markers"),
+    }
+
+
 def test_ids_are_unique_and_every_extra_has_a_notebook():
     """No id stands for two things."""
     ids = [item.id for item in (*ITEMS, *EXTRAS)]

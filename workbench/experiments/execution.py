@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from workbench.experiments.runs import Run, scheme_name
 from workbench.experiments.store import Arrays, Row
 from workbench.experiments.versions import versions
+from workbench.optimization.objective import Effort
 from workbench.projection import project
 from workbench.quality.summary import EmbeddingQuality, embedding_quality
 from workbench.results import Result, SpatialResult
@@ -60,7 +61,7 @@ class SharedSteps:
     def __init__(self, space: Space) -> None:
         self.space = space
         self._distance_seconds: float | None = None
-        self._projections: dict[tuple[str, int], Projection] = {}
+        self._projections: dict[tuple[str, int, int | None], Projection] = {}
 
     def distance_seconds(self) -> float:
         """Compute the distance matrix, which the space keeps, and tell how long it took."""
@@ -70,13 +71,13 @@ class SharedSteps:
             self._distance_seconds = time.perf_counter() - start
         return self._distance_seconds
 
-    def projection(self, projector: str, seed: int) -> Projection:
-        """Project the space, or give the projection that is there already."""
-        key = (projector, seed)
+    def projection(self, projector: str, seed: int, dimensions: int | None = None) -> Projection:
+        """Project the space in one step, or give the projection that is there already."""
+        key = (projector, seed, dimensions)
         if key not in self._projections:
             with warnings.catch_warnings(record=True) as caught:
                 start = time.perf_counter()
-                embedding = project(self.space, projector, random_state=seed)
+                embedding = project(self.space, projector, dimensions=dimensions, random_state=seed)
                 seconds = time.perf_counter() - start
             self._projections[key] = Projection(
                 embedding,
@@ -102,8 +103,10 @@ def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
     row : dict
         Names of the methods, ``error`` and ``relative_error``, for spatial schemes also
         the quality of the embedding (``stress``, …), of the projection before optimization
-        (``projected_stress``, …) and their ratios; ``warnings``; ``seconds_…`` of each step;
-        versions.
+        (``projected_stress``, …) and their ratios, ``evaluations`` (points back-projected,
+        for the reconstruction too), ``jacobians`` and ``distances`` (of the optimizer and the
+        search for markers; None if one does not tell); ``warnings``; ``seconds_…`` of each
+        step; versions.
     arrays : dict of str to ndarray
         ``errors`` (n_samples,), ``control_points`` (n_control_points,) and, for spatial
         schemes, ``projected`` and ``embedding`` (n_samples, n_components).
@@ -116,7 +119,9 @@ def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
         if isinstance(run.scheme, SpatialScheme):
             seconds["distances"] = shared.distance_seconds()
             if _starts_from_shared_projection(run.scheme):
-                projection = shared.projection(run.scheme.projector, run.seed)
+                projection = shared.projection(
+                    run.scheme.projector, run.seed, run.scheme.dimensions
+                )
                 seconds["project"] = projection.seconds
                 result = run.scheme.run(shared.space, projected=projection.embedding, **amount)
             else:
@@ -146,12 +151,12 @@ def execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
 
 
 def _starts_from_shared_projection(scheme: SpatialScheme) -> bool:
-    """Tell whether the projection is the same for all runs with this projector and seed."""
-    return (
-        scheme.two_step is None
-        and scheme.dimensions is None
-        and (scheme.back_projector != "inverse")
-    )
+    """Tell whether a projection of all samples is all that a scheme needs to start.
+
+    Two steps start from the control points, whose number and choice differ between runs, and
+    a projector's own inverse needs the projector, not only where it put the samples.
+    """
+    return scheme.two_step is None and scheme.back_projector != "inverse"
 
 
 def _messages(caught: list[warnings.WarningMessage]) -> tuple[str, ...]:
@@ -159,7 +164,8 @@ def _messages(caught: list[warnings.WarningMessage]) -> tuple[str, ...]:
 
 
 def _spatial_values(result: SpatialResult, before: EmbeddingQuality) -> Row:
-    after = before if result.optimization is None else result.quality
+    after = before if result.embedding is result.projected else result.quality
+    effort = _effort(result)
     return {
         **asdict(after),
         **{f"projected_{name}": value for name, value in asdict(before).items() if name != "k"},
@@ -168,8 +174,21 @@ def _spatial_values(result: SpatialResult, before: EmbeddingQuality) -> Row:
             after.scale_normalized_stress, before.scale_normalized_stress
         ),
         "evaluations": result.evaluations,
+        "jacobians": effort.jacobians if effort else None,
+        "distances": effort.distances if effort else None,
         "iterations": result.optimization.iterations if result.optimization else 0,
     }
+
+
+def _effort(result: SpatialResult) -> Effort | None:
+    """Add up what the searches computed; None where an optimizer does not tell."""
+    effort = Effort()
+    for search in (result.optimization, result.marker_result):
+        if search is not None:
+            if search.effort is None:
+                return None
+            effort += search.effort
+    return effort
 
 
 def _ratio(after: float, before: float) -> float | None:

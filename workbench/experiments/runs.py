@@ -60,7 +60,8 @@ class Run:
         if (self.ratio is None) == (self.count is None):
             raise WorkbenchError(f"run on {self.dataset!r}: want exactly one of ratio and count")
         for step, method in asdict(self.scheme).items():
-            if not (method is None or isinstance(method, str)):
+            # The number of dimensions is no method.
+            if step != "dimensions" and not (method is None or isinstance(method, str)):
                 raise WorkbenchError(
                     f"{step} of a run: got {type(method).__name__}, want a registered name "
                     "(see workbench.register_projector and its like)"

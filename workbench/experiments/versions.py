@@ -17,7 +17,7 @@ _PACKAGES = ("numpy", "scipy", "scikit-learn", "umap-learn", "numba")
 _NOT_NUMERICAL = (
     "__main__.py",
     "cli",
-    "compact.py",
+    "compact",
     "dashboards",
     "datasets",
     "errors.py",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import plotly.graph_objects as go
 
 from workbench.errors import WorkbenchError
-from workbench.figures.style import OURS, PUBLISHED, TEMPLATE
+from workbench.figures.style import BLACK, OURS, PUBLISHED, TEMPLATE
 
 
 @dataclass(frozen=True)
@@ -39,8 +39,9 @@ def box_plot(
     *,
     y_title: str,
     order: tuple[str, ...] | None = None,
+    reference: float | None = None,
 ) -> go.Figure:
-    """Draw boxes side by side for several sources of the same values.
+    """Draw boxes side by side for one or two sources of the same values.
 
     The quartiles and whiskers are drawn as given: plotly would compute its own by another
     rule.
@@ -48,11 +49,14 @@ def box_plot(
     Parameters
     ----------
     groups : mapping of str to mapping of str to Box
-        For each source ("ours", "published") the box of each category.
+        For each source, such as "ours" and "published", the box of each category.
     y_title : str
         What the values are.
     order : tuple of str, optional
         Categories from left to right; by default in the order of their first appearance.
+    reference : float, optional
+        A value that all are compared with: it gets a line, and the axis the range of the
+        values. Without it the axis starts at 0.
 
     Returns
     -------
@@ -102,7 +106,11 @@ def box_plot(
                 )
             )
     figure.update_xaxes(categoryorder="array", categoryarray=categories, showgrid=False)
-    figure.update_yaxes(title_text=y_title, rangemode="tozero", tickformat=".1f")
+    if reference is None:
+        figure.update_yaxes(title_text=y_title, rangemode="tozero", tickformat=".1f")
+    else:
+        figure.update_yaxes(title_text=y_title, tickformat=".2f")
+        figure.add_hline(reference, line={"color": BLACK, "width": 1, "dash": "dot"})
     return figure.update_layout(height=460)
 
 
