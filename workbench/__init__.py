@@ -25,7 +25,11 @@ if TYPE_CHECKING:
     from workbench.interpolation import register_interpolator
     from workbench.mocap import Motion, Skeleton, read_asf_amc, read_bvh, write_bvh
     from workbench.optimization import register_optimizer
-    from workbench.projection import project, register_projector
+    from workbench.projection import (
+        project,
+        register_control_point_projector,
+        register_projector,
+    )
     from workbench.quality.summary import embedding_quality
     from workbench.schemes import SpatialScheme, TemporalScheme
     from workbench.selection import register_selector
@@ -51,6 +55,7 @@ _HOMES = {
     "read_asf_amc": "mocap",
     "read_bvh": "mocap",
     "register_back_projector": "backprojection",
+    "register_control_point_projector": "projection",
     "register_dataset": "datasets",
     "register_interpolator": "interpolation",
     "register_optimizer": "optimization",
@@ -78,6 +83,7 @@ __all__ = [
     "read_asf_amc",
     "read_bvh",
     "register_back_projector",
+    "register_control_point_projector",
     "register_dataset",
     "register_interpolator",
     "register_optimizer",

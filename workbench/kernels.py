@@ -14,6 +14,9 @@ from typing import Any
 import numba
 from numba.core import event
 
+#: numba's settings, which it makes when it is imported, unseen by a type checker.
+_settings: Any = numba.config
+
 #: Compiled versions of earlier states of the code are removed after so many days.
 _KEPT_DAYS = 7
 
@@ -41,8 +44,8 @@ def kernel_folder(package: Path) -> Path:
     for path, text in contents.items():
         if path.parent in compiling:
             digest.update(path.name.encode() + hashlib.sha256(text).digest())
-    if numba.config.CACHE_DIR:
-        base = Path(numba.config.CACHE_DIR)
+    if _settings.CACHE_DIR:
+        base = Path(_settings.CACHE_DIR)
     else:
         import pooch
 
@@ -69,12 +72,12 @@ _FOLDER = _prepare(kernel_folder(Path(__file__).parent))
 
 def _compile(function: Callable[..., Any], **options: Any) -> Any:
     # numba takes the folder when a function is decorated; other packages keep theirs.
-    theirs = numba.config.CACHE_DIR
-    numba.config.CACHE_DIR = _FOLDER or theirs
+    theirs = _settings.CACHE_DIR
+    _settings.CACHE_DIR = _FOLDER or theirs
     try:
         return numba.njit(cache=True, **options)(function)
     finally:
-        numba.config.CACHE_DIR = theirs
+        _settings.CACHE_DIR = theirs
 
 
 def compiled(function: Callable[..., Any]) -> Any:

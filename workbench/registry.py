@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from copy import deepcopy
 from importlib import import_module
+from numbers import Integral
 from typing import Any
 
 from workbench.errors import WorkbenchError
@@ -170,8 +171,10 @@ def _seed(method: Any, random_state: int | None) -> None:
     """Give the seed to each ``random_state`` that is open, inner estimators included."""
     if random_state is None:
         return
-    if not 0 <= random_state < 2**32:
-        raise WorkbenchError(f"random_state: got {random_state}, want from 0 to {2**32 - 1}")
+    if not isinstance(random_state, Integral) or not 0 <= random_state < 2**32:
+        raise WorkbenchError(
+            f"random_state: got {random_state!r}, want a whole number from 0 to {2**32 - 1}"
+        )
     if hasattr(method, "get_params"):
         is_open = {
             name: random_state
