@@ -318,7 +318,8 @@ class VectorSpace(Space):
 
     def error_table(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
         """Measure Euclidean distances: (n_indices, n_reconstructions)."""
-        return self.cross_distances(self.samples[_index(indices)], reconstructions)
+        errors = self.cross_distances(self.samples[_index(indices)], reconstructions)
+        return finite(errors, "errors of reconstructions")
 
     def error_derivatives(
         self, indices: ArrayLike, reconstructions: ArrayLike, jacobians: NDArray[np.float64]
@@ -442,7 +443,7 @@ class PoseSpace(Space):
     def error_table(self, indices: ArrayLike, reconstructions: ArrayLike) -> NDArray[np.float64]:
         """Measure D_q per joint: (n_indices, n_reconstructions)."""
         distances = self.cross_distances(self.samples[_index(indices)], reconstructions)
-        return distances / len(self.weights)
+        return finite(distances / len(self.weights), "errors of reconstructions")
 
     def error_derivatives(
         self, indices: ArrayLike, reconstructions: ArrayLike, jacobians: NDArray[np.float64]

@@ -13,8 +13,8 @@ from tests.optimization.problems import flat, sheet
 from workbench.errors import WorkbenchError
 from workbench.mocap.distance_derivatives import rotation_distance_derivatives
 from workbench.mocap.distances import rotation_distance_pairs
-from workbench.optimization.descent import ErrorModel, trust_region_steps
 from workbench.optimization.objective import Objective
+from workbench.optimization.trust_region import ErrorModel, trust_region_steps
 from workbench.schemes import SpatialScheme
 
 

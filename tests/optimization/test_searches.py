@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import lsq_linear
 from sklearn.neighbors import KNeighborsRegressor
 
 import workbench
@@ -62,6 +63,31 @@ def test_bounds_are_kept(search, derivatives):
     inside[:10] = False
     error = np.abs(result.embedding - places)[inside].max()
     assert error < (1e-6 if derivatives else 5e-3)
+
+
+@pytest.mark.parametrize("dimensions", [2, 3])
+@given(seed=st.integers(0, 10_000))
+@settings(max_examples=10, deadline=None)
+def test_the_best_place_within_bounds_is_found(dimensions, seed):
+    """Samples slide along the bounds to where scipy's least squares within a box ends."""
+    rng = np.random.default_rng(seed)
+    places = rng.random((20, dimensions))
+    samples = places @ rng.normal(size=(dimensions, 5))  # axes depend on each other
+    low, high = np.full(dimensions, 0.3), np.full(dimensions, 0.7)
+    start = rng.uniform(0.3, 0.7, size=(20, dimensions))
+    free = np.arange(8, 20)
+    start[free[:6]] = np.where(start[free[:6]] < 0.5, low, high)  # in corners
+    back_projector = RBF().fit(places[:8], samples[:8])
+    problem = Problem(VectorSpace(samples), start, free, back_projector)
+    result = problem.run(LocalSearch(bounds=(low, high), tolerance=1e-9))
+    origin = back_projector.predict(np.zeros((1, dimensions)))[0]
+    slope = back_projector.jacobian(np.zeros((1, dimensions)))[0]
+    expected = [
+        np.sqrt(2 * lsq_linear(slope, sample - origin, (low, high), tol=1e-14).cost)
+        for sample in samples[free]
+    ]
+    assert np.all((result.embedding[free] >= low) & (result.embedding[free] <= high))
+    assert np.allclose(result.errors, expected, atol=1e-6)
 
 
 @SEARCHES

@@ -7,13 +7,13 @@ watched and stopped, and leave what they were given only for something better.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.kernels import compiled
 from workbench.optimization.objective import Objective
+from workbench.optimization.trust_region import ErrorModel
 
 #: Steps shorter than this share of the first radius end the search of a point.
 _SHORTEST = 1e-3
@@ -21,7 +21,7 @@ _SHORTEST = 1e-3
 
 @dataclass(eq=False)
 class Descent:
-    """Points on their way down.
+    """Points on their way down; their errors at the start are evaluated at once.
 
     Attributes
     ----------
@@ -30,34 +30,45 @@ class Descent:
     indices : ndarray of shape (n_points,)
         The sample that each point stands for.
     points : ndarray of shape (n_points, n_dimensions)
-        Current positions.
-    errors : ndarray of shape (n_points,)
-        Errors there; never rising.
+        Current positions, moved in place.
     radii : ndarray of shape (n_points,)
-        Length of the first step at most.
+        Length of the first step at most, above 0.
     bounds : tuple of two ndarrays of shape (n_dimensions,)
         Box that is not left.
     tolerance : float
         A point rests when the improvement to be expected, relative to its error, is below.
     max_iterations : int
         Upper limit.
+    errors : ndarray of shape (n_points,)
+        Errors at the points; never rising.
     """
 
     objective: Objective
     indices: NDArray[np.intp]
     points: NDArray[np.float64]
-    errors: NDArray[np.float64]
     radii: NDArray[np.float64]
     bounds: tuple[NDArray[np.float64], NDArray[np.float64]]
     tolerance: float
     max_iterations: int
+    errors: NDArray[np.float64] = field(init=False)
+
+    def __post_init__(self) -> None:
+        if self.objective.has_derivatives:
+            derivatives = self.objective.derivatives(self.points, self.indices)
+            self.errors, self._gradients, self._curvatures = derivatives
+        else:
+            self.errors = self.objective(self.points, self.indices)
 
     def run(self) -> Iterator[None]:
         """Descend, yielding after each iteration."""
-        return _newton(self) if self.objective.has_derivatives else _probing(self)
+        if self.objective.has_derivatives:
+            return _newton(self, self._gradients, self._curvatures)
+        return _probing(self)
 
 
-def _newton(descent: Descent) -> Iterator[None]:
+def _newton(
+    descent: Descent, gradients: NDArray[np.float64], curvatures: NDArray[np.float64]
+) -> Iterator[None]:
     """Step to the minimum of a quadratic model within a radius that adapts to its success.
 
     The trust-region method with the curvature of Gauss and Newton (Conn, Gould & Toint 2000).
@@ -71,10 +82,10 @@ def _newton(descent: Descent) -> Iterator[None]:
     radii = descent.radii.copy()
     low, high = descent.bounds
     active = np.arange(len(points))
-    errors[:], gradients, curvatures = objective.derivatives(points, indices)
     for _ in range(descent.max_iterations):
         model = ErrorModel(errors[active], gradients[active], curvatures[active])
-        steps = np.clip(points[active] + model.steps(radii[active]), low, high) - points[active]
+        here = points[active]
+        steps = model.steps_within(radii[active], low - here, high - here)
         gains = model.gains(steps)
         worthwhile = (gains > descent.tolerance * errors[active]) & (
             radii[active] > _SHORTEST * descent.radii[active]
@@ -82,7 +93,9 @@ def _newton(descent: Descent) -> Iterator[None]:
         active, steps, gains = active[worthwhile], steps[worthwhile], gains[worthwhile]
         if not len(active):
             return
-        tried = objective.derivatives(points[active] + steps, indices[active])
+        # Cut off again: a sum may be rounded to beyond the bounds.
+        places = np.clip(points[active] + steps, low, high)
+        tried = objective.derivatives(places, indices[active])
         success = (errors[active] - tried[0]) / gains
         lengths = np.linalg.norm(steps, axis=1)
         at_limit = lengths > 0.9 * radii[active]
@@ -93,7 +106,7 @@ def _newton(descent: Descent) -> Iterator[None]:
         )
         lower = tried[0] < errors[active]
         moved = active[lower]
-        points[moved] += steps[lower]
+        points[moved] = places[lower]
         errors[moved], gradients[moved], curvatures[moved] = (part[lower] for part in tried)
         yield
 
@@ -115,7 +128,6 @@ def _probing(descent: Descent) -> Iterator[None]:
     dimensions = points.shape[1]
     directions = np.concatenate([np.eye(dimensions), -np.eye(dimensions)])
     active = np.arange(len(points))
-    errors[:] = objective(points, indices)
     for _ in range(descent.max_iterations):
         if not len(active):
             return
@@ -147,118 +159,3 @@ def _probing(descent: Descent) -> Iterator[None]:
         )
         active = active[~rests & (radii[active] > _SHORTEST * descent.radii[active])]
         yield
-
-
-@compiled
-def _eigenvalues(matrix):  # type: ignore[no-untyped-def]  # compiled
-    """Decompose a symmetric matrix; in the plane by hand, which is ten times faster."""
-    if len(matrix) != 2:
-        return np.linalg.eigh(matrix)
-    middle = 0.5 * (matrix[0, 0] + matrix[1, 1])
-    half = 0.5 * (matrix[0, 0] - matrix[1, 1])
-    off = matrix[0, 1]
-    radius = np.hypot(half, off)
-    turn = 0.5 * np.arctan2(off, half)
-    c, s = np.cos(turn), np.sin(turn)
-    return np.array([middle - radius, middle + radius]), np.array([[-s, c], [c, s]])
-
-
-@compiled
-def _trust_region_step(gradient, curvature, radius, step):  # type: ignore[no-untyped-def]  # compiled
-    values, vectors = _eigenvalues(curvature)
-    slopes = vectors.T @ gradient
-    n = len(slopes)
-    # Small enough to change no well-determined step, large enough to divide by.
-    floor = 1e-12 * (np.abs(values).max() + np.sqrt(np.sum(slopes**2)) / radius) + 1e-300
-    values = np.maximum(values, 0.0) + floor
-    shift, length = 0.0, 0.0
-    for _ in range(20):
-        length, bend = 0.0, 0.0
-        for i in range(n):
-            part = slopes[i] / (values[i] + shift)
-            length += part * part
-            bend += part * part / (values[i] + shift)
-        squared, length = length, np.sqrt(length)
-        if length <= radius * (1.0 + 1e-6):
-            break
-        shift += squared * (length - radius) / (bend * radius)
-    shorten = radius / length if length > radius else 1.0
-    for i in range(n):
-        slopes[i] *= -shorten / (values[i] + shift)
-    step[:] = vectors @ slopes
-
-
-@compiled
-def _trust_region_steps(gradients, curvatures, radii, steps):  # type: ignore[no-untyped-def]  # compiled
-    for i in range(len(gradients)):
-        _trust_region_step(gradients[i], curvatures[i], radii[i], steps[i])
-
-
-def trust_region_steps(
-    gradients: NDArray[np.float64], curvatures: NDArray[np.float64], radii: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """Minimise quadratic models within balls.
-
-    min g·s + ½ s·H·s subject to ‖s‖ ≤ r, for positive semidefinite H, by Newton's method on
-    1/‖s(μ)‖ − 1/r with s(μ) = −(H + μI)⁻¹ g (Moré & Sorensen 1983).
-
-    Parameters
-    ----------
-    gradients : ndarray of shape (n_points, n_dimensions)
-        g.
-    curvatures : ndarray of shape (n_points, n_dimensions, n_dimensions)
-        H.
-    radii : ndarray of shape (n_points,)
-        r, above 0.
-
-    Returns
-    -------
-    ndarray of shape (n_points, n_dimensions)
-
-    Examples
-    --------
-    >>> bowl = np.diag([2.0, 2.0])[None]
-    >>> trust_region_steps(np.array([[-2.0, 2.0]]), bowl, np.array([9.0])).round(9)
-    array([[ 1., -1.]])
-    """
-    steps = np.empty_like(gradients)
-    _trust_region_steps(
-        np.ascontiguousarray(gradients), np.ascontiguousarray(curvatures), radii, steps
-    )
-    return steps
-
-
-@dataclass(frozen=True, eq=False)
-class ErrorModel:
-    """Quadratic models of squared errors around points.
-
-    An error is a distance, with a kink where it is 0; its square is smooth there. With E, g
-    and H an error, its gradient and its curvature, ½E² has the gradient E·g and the curvature
-    E·H + g·gᵀ, which for vectors is exact as long as the reconstruction is linear.
-
-    Attributes
-    ----------
-    errors : ndarray of shape (n_points,)
-    gradients : ndarray of shape (n_points, n_dimensions)
-    curvatures : ndarray of shape (n_points, n_dimensions, n_dimensions)
-    """
-
-    errors: NDArray[np.float64]
-    gradients: NDArray[np.float64]
-    curvatures: NDArray[np.float64]
-
-    def steps(self, radii: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Find the best steps of at most the given lengths: (n_points, n_dimensions)."""
-        return trust_region_steps(*self._squared(), radii)
-
-    def gains(self, steps: NDArray[np.float64]) -> NDArray[np.float64]:
-        """Tell by how much steps are to lower the errors: (n_points,)."""
-        gradients, curvatures = self._squared()
-        change = np.einsum("ni,ni->n", gradients, steps)
-        change += 0.5 * np.einsum("ni,nij,nj->n", steps, curvatures, steps)
-        return self.errors - np.sqrt(np.maximum(self.errors**2 + 2.0 * change, 0.0))
-
-    def _squared(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-        curvatures = self.errors[:, None, None] * self.curvatures
-        curvatures += self.gradients[:, :, None] * self.gradients[:, None, :]
-        return self.errors[:, None] * self.gradients, curvatures

@@ -9,13 +9,17 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.optimization.descent import Descent, ErrorModel
+from workbench.optimization.descent import Descent
 from workbench.optimization.local_search import check_limits
 from workbench.optimization.objective import Callback, Objective, OptimizationResult
 from workbench.optimization.progress import Bounds, Progress, as_bounds
+from workbench.optimization.trust_region import ErrorModel
 
 #: Nearest control points that a control point makes a starting point with, halfway.
 _HALFWAY = 3
+
+#: Entries of the table of samples and coarse points that is held at once.
+_TABLE = 2**20
 
 #: Improvement, relative to a sample's error, that a neighbour's position must promise.
 _WORTHWHILE = 1e-3
@@ -136,11 +140,13 @@ class GlobalSearch:
             back-projector gives values that are not finite.
         """
         progress = Progress(objective, embedding, free, neighbors, callback)
-        search = _Search(objective, progress, as_bounds(self.bounds, progress.embedding), self)
+        bounds = as_bounds(self.bounds, progress.embedding)
+        progress.begin(objective(progress.points, progress.free))
+        search = _Search(objective, progress, bounds, self)
         for _ in search.run():
             if not progress.record():
                 break
-        return progress.result("no sample found a better place")
+        return progress.result(search.reason)
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,6 +173,7 @@ class _Search:
         self.bounds = bounds
         self.settings = settings
         self.radii = progress.radii
+        self.reason = "no sample found a better place"
 
     def run(self) -> Iterator[None]:
         """Search, yielding after each iteration."""
@@ -219,8 +226,20 @@ class _Search:
 
     def _scouts(self, coarse: _CoarsePoints) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
         """Let some samples measure all coarse points; return them with their best few."""
-        every = self.settings.scouts
-        which = np.arange(every // 2, len(self.progress.free), every)
+        every, n = self.settings.scouts, len(self.progress.free)
+        which = np.arange(min(every, n) // 2, n, every)
+        size = max(1, _TABLE // len(coarse.points))
+        parts = [
+            self._best_starts(which[start : start + size], coarse)
+            for start in range(0, len(which), size)
+        ]
+        scouts, starts = zip(*parts, strict=True)
+        return np.concatenate(scouts), np.concatenate(starts)
+
+    def _best_starts(
+        self, which: NDArray[np.intp], coarse: _CoarsePoints
+    ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
+        """Find each sample's best few of all coarse points."""
         errors = self.objective.table(self.progress.free[which], coarse.reconstructions)
         scouts, starts = [], []
         for _ in range(self.settings.starts):
@@ -253,6 +272,7 @@ class _Search:
             promising = promised < (1.0 - _WORTHWHILE) * progress.errors[which]
             which, starts = which[promising], places[ask[promising]]
             yield from self._descend(which, starts, self.radii[which])
+        self.reason = f"reached {self.settings.max_iterations} rounds among neighbours"
 
     def _promised(
         self, which: NDArray[np.intp], places: NDArray[np.float64], within: NDArray[np.float64]
@@ -277,16 +297,18 @@ class _Search:
             self.objective,
             self.progress.free[which],
             starts.copy(),
-            np.empty(len(which)),
             radii,
             self.bounds,
             self.settings.tolerance,
             self.settings.max_iterations,
         )
+        moved = self.progress.place(which, descent.points, descent.errors)
         for _ in descent.run():
             self.progress.place(which, descent.points, descent.errors)
+            moved = False
             yield
-        self.progress.place(which, descent.points, descent.errors)
+        if moved:
+            yield
 
 
 def _between(control_points: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.optimization.objective import Callback, Objective, OptimizationResult
-from workbench.optimization.progress import neighbor_radii
+from workbench.optimization.progress import as_neighbors, neighbor_radii
 from workbench.validation import as_embedding, control_point_indices
 
 
@@ -110,10 +110,7 @@ class GradientDescent:
         """
         points = as_embedding(embedding).copy()
         free = control_point_indices(free, len(points), name="free")
-        neighbors = np.asarray(neighbors)
-        if neighbors.shape != (len(points), 2):
-            raise WorkbenchError(f"neighbors: got shape {neighbors.shape}, want ({len(points)}, 2)")
-        pairs = neighbors[free]
+        pairs = as_neighbors(neighbors, len(points))[free]
         started_at = objective.effort
         errors = objective(points[free], free)
         history = [float(errors.mean())]

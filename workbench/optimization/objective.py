@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.backprojection import BackProjector
+from workbench.errors import WorkbenchError
 from workbench.spaces import Space
+from workbench.validation import finite
 
 #: Called with (iteration, mean error, embedding) after each iteration; a true result stops.
 Callback = Callable[[int, float, NDArray[np.float64]], bool | None]
@@ -18,8 +20,11 @@ Callback = Callable[[int, float, NDArray[np.float64]], bool | None]
 #: Error measure: (indices of samples, their reconstructions) to one error for each.
 ErrorFunction = Callable[[NDArray[np.intp], NDArray[np.float64]], NDArray[np.float64]]
 
-#: Points differentiated at once, which bounds the memory of their Jacobians.
-_BLOCK = 1024
+#: Points rebuilt at once, which bounds the memory of their samples.
+_BLOCK = 4096
+
+#: Points differentiated at once: their Jacobians take as many times more as there are axes.
+_DIFFERENTIATED = 1024
 
 
 @dataclass(frozen=True)
@@ -96,7 +101,9 @@ class Objective:
     @property
     def has_derivatives(self) -> bool:
         """Whether :meth:`derivatives` can be had: of the back-projector and of the error."""
-        return self._space is not None and hasattr(self._back_projector, "predict_with_jacobian")
+        return self._space is not None and any(
+            hasattr(self._back_projector, name) for name in ("predict_with_jacobian", "jacobian")
+        )
 
     def __call__(self, points: NDArray[np.float64], indices: ArrayLike) -> NDArray[np.float64]:
         """Evaluate the errors of samples placed at points.
@@ -111,9 +118,20 @@ class Objective:
         Returns
         -------
         ndarray of shape (n_points,)
+
+        Raises
+        ------
+        WorkbenchError
+            If the back-projector or the error measure gives values that are not finite, or
+            of another shape.
         """
         self._count(evaluations=len(points), distances=len(points))
-        return self._errors(np.asarray(indices), self._back_projector.predict(points))
+        indices = np.asarray(indices)
+        errors = np.empty(len(points))
+        for block in _blocks(len(points), _BLOCK):
+            rebuilt = self._back_projector.predict(points[block])
+            errors[block] = self._measured(indices[block], rebuilt)
+        return errors
 
     def derivatives(
         self, points: NDArray[np.float64], indices: ArrayLike
@@ -131,19 +149,25 @@ class Objective:
         gradients : ndarray of shape (n_points, n_dimensions)
         curvatures : ndarray of shape (n_points, n_dimensions, n_dimensions)
             See :meth:`workbench.spaces.Space.error_derivatives`.
+
+        Raises
+        ------
+        WorkbenchError
+            If the back-projector gives values that are not finite, or of another shape.
         """
         assert self._space is not None
-        self._count(evaluations=len(points), jacobians=len(points), distances=len(points))
+        n, dimensions = points.shape
+        self._count(evaluations=n, jacobians=n, distances=n)
         indices = np.asarray(indices)
-        parts = []
-        for start in range(0, len(points), _BLOCK):
-            block = slice(start, start + _BLOCK)
-            rebuilt = self._back_projector.predict_with_jacobian(points[block])
-            parts.append(self._space.error_derivatives(indices[block], *rebuilt))
-        if not parts:
-            dimensions = points.shape[1]
-            return np.empty(0), np.empty((0, dimensions)), np.empty((0, dimensions, dimensions))
-        errors, gradients, curvatures = (np.concatenate(part) for part in zip(*parts, strict=True))
+        errors = np.empty(n)
+        gradients = np.empty((n, dimensions))
+        curvatures = np.empty((n, dimensions, dimensions))
+        for block in _blocks(n, _DIFFERENTIATED):
+            rebuilt, jacobians = self._differentiated(points[block])
+            errors[block], gradients[block], curvatures[block] = self._space.error_derivatives(
+                indices[block], rebuilt, jacobians
+            )
+        finite(gradients, "gradients of errors")
         return errors, gradients, curvatures
 
     def back_project(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -177,15 +201,46 @@ class Objective:
         Returns
         -------
         ndarray of shape (n_indices, n_reconstructions)
+
+        Raises
+        ------
+        WorkbenchError
+            As for a call.
         """
-        self._count(distances=len(indices) * len(reconstructions))
+        n = len(reconstructions)
+        self._count(distances=len(indices) * n)
         if self._space is not None:
             return self._space.error_table(indices, reconstructions)
-        every = np.arange(len(reconstructions))
-        rows = [
-            self._errors(np.full(len(every), index), reconstructions[every]) for index in indices
-        ]
-        return np.array(rows).reshape(len(indices), len(every))
+        rows = [self._measured(np.full(n, index), reconstructions) for index in indices]
+        return np.array(rows).reshape(len(indices), n)
+
+    def _measured(
+        self, indices: NDArray[np.intp], rebuilt: NDArray[np.float64]
+    ) -> NDArray[np.float64]:
+        """Measure errors by a function that may be the user's own, and check them."""
+        errors = np.asarray(self._errors(indices, rebuilt), dtype=np.float64)
+        if errors.shape != indices.shape:
+            raise WorkbenchError(
+                f"errors: got shape {errors.shape} for {len(indices)} reconstructions, "
+                "want one error for each"
+            )
+        return finite(errors, "errors of reconstructions")
+
+    def _differentiated(
+        self, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Rebuild samples with their derivatives, at once where the back-projector does that."""
+        method = self._back_projector
+        if hasattr(method, "predict_with_jacobian"):
+            rebuilt, jacobians = method.predict_with_jacobian(points)
+        else:
+            rebuilt, jacobians = method.predict(points), method.jacobian(points)
+        wanted = (*np.shape(rebuilt), points.shape[1])
+        if np.shape(jacobians) != wanted:
+            raise WorkbenchError(
+                f"jacobian of the back-projector: got shape {np.shape(jacobians)}, want {wanted}"
+            )
+        return rebuilt, jacobians
 
     def _count(self, evaluations: int = 0, jacobians: int = 0, distances: int = 0) -> None:
         self.effort = replace(
@@ -227,3 +282,8 @@ class OptimizationResult:
     def iterations(self) -> int:
         """Number of iterations that were run."""
         return len(self.history) - 1
+
+
+def _blocks(n: int, size: int) -> Iterator[slice]:
+    """Cut a range into slices."""
+    return (slice(start, start + size) for start in range(0, n, size))

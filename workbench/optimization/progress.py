@@ -38,7 +38,7 @@ class Progress:
     neighbors : ndarray of shape (n_free, 2)
         Neighbours of those.
     errors : ndarray of shape (n_free,)
-        Their current errors.
+        Their current errors, from :meth:`begin` on.
     stopped : bool
         Whether the callback has asked to stop.
 
@@ -58,30 +58,36 @@ class Progress:
     ) -> None:
         self.embedding = as_embedding(embedding).copy()
         self.free = control_point_indices(free, len(self.embedding), name="free")
-        pairs = np.asarray(neighbors)
-        if pairs.shape != (len(self.embedding), 2):
-            raise WorkbenchError(
-                f"neighbors: got shape {pairs.shape}, want ({len(self.embedding)}, 2)"
-            )
-        self.neighbors = pairs[self.free]
+        self.neighbors = as_neighbors(neighbors, len(self.embedding))[self.free]
         self.stopped = False
         self._objective = objective
         self._callback = callback
         self._started_at = objective.effort
-        self.errors = objective(self.embedding[self.free], self.free)
-        self._history = [float(self.errors.mean())]
+        self._history: list[float] = []
+
+    errors: NDArray[np.float64]
+
+    @property
+    def points(self) -> NDArray[np.float64]:
+        """Current positions of the free points, a copy: (n_free, n_dimensions)."""
+        return self.embedding[self.free]
+
+    def begin(self, errors: NDArray[np.float64]) -> None:
+        """Note the errors at the start: (n_free,)."""
+        self.errors = errors.copy()
+        self._history = [float(errors.mean())]
 
     @property
     def radii(self) -> NDArray[np.float64]:
         """Mean distance of each free point to its two neighbours: (n_free,).
 
-        Points that coincide with both have no radius of their own and take the median one.
+        See :func:`neighbor_radii` for points that coincide with both.
         """
         return neighbor_radii(self.embedding, self.free, self.neighbors)
 
     def place(
         self, which: NDArray[np.intp], points: NDArray[np.float64], errors: NDArray[np.float64]
-    ) -> None:
+    ) -> bool:
         """Move free points where their error is lower than it is, and only there.
 
         Parameters
@@ -92,6 +98,11 @@ class Progress:
             Where they might move.
         errors : ndarray of shape (n_points,)
             Their errors there.
+
+        Returns
+        -------
+        bool
+            Whether any was moved.
         """
         order = np.lexsort([errors, which])
         first = np.diff(which[order], prepend=-1) != 0
@@ -99,6 +110,7 @@ class Progress:
         best = best[errors[best] < self.errors[which[best]]]
         self.embedding[self.free[which[best]]] = points[best]
         self.errors[which[best]] = errors[best]
+        return len(best) > 0
 
     def record(self) -> bool:
         """Note the mean error, call back, and tell whether to go on."""
@@ -122,12 +134,45 @@ class Progress:
         )
 
 
+def as_neighbors(neighbors: ArrayLike, n_samples: int) -> NDArray[np.intp]:
+    """Check the two neighbours of each sample.
+
+    Parameters
+    ----------
+    neighbors : array-like of shape (n_samples, 2)
+        Indices of samples.
+    n_samples : int
+        Number of samples.
+
+    Returns
+    -------
+    ndarray of shape (n_samples, 2)
+
+    Raises
+    ------
+    WorkbenchError
+        If the shape is another, or they are no indices of samples.
+    """
+    pairs = np.asarray(neighbors)
+    if pairs.shape != (n_samples, 2) or not np.issubdtype(pairs.dtype, np.integer):
+        raise WorkbenchError(
+            f"neighbors: got shape {pairs.shape} of {pairs.dtype}, "
+            f"want ({n_samples}, 2) sample indices"
+        )
+    if pairs.min() < 0 or pairs.max() >= n_samples:
+        raise WorkbenchError(
+            f"neighbors: got {pairs.min()}…{pairs.max()}, want indices from 0 to {n_samples - 1}"
+        )
+    return pairs.astype(np.intp)
+
+
 def neighbor_radii(
     points: NDArray[np.float64], free: NDArray[np.intp], pairs: NDArray[np.intp]
 ) -> NDArray[np.float64]:
     """Average each free point's distances to its two neighbours.
 
-    Points that coincide with both have no radius of their own and take the median one.
+    Points that coincide with both have no radius of their own and take the median one; if
+    all do, the extent of the whole embedding, or 1 if that has none.
 
     Parameters
     ----------
@@ -146,6 +191,8 @@ def neighbor_radii(
     positive = radii > 0
     if positive.any():
         radii[~positive] = np.median(radii[positive])
+    else:
+        radii[:] = np.ptp(points, axis=0).max() or 1.0
     return radii
 
 
