@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from sklearn.utils import check_random_state
 
 from workbench.errors import WorkbenchError
 from workbench.spaces import Space, check_space
@@ -114,6 +113,9 @@ def random_generator(random_state: Any) -> np.random.RandomState:
     WorkbenchError
         If it is anything else.
     """
+    # Imported here: names of methods are listed without loading what they need.
+    from sklearn.utils import check_random_state
+
     try:
         return check_random_state(random_state)
     except (TypeError, ValueError):
