@@ -167,3 +167,9 @@ def test_unfit_input_is_refused(call, message):
     """The message names the argument."""
     with pytest.raises(WorkbenchError, match=message):
         call()
+
+
+def test_labels_of_different_kinds_are_refused():
+    """A word and a missing value have no order, and no traceback."""
+    with pytest.raises(WorkbenchError, match="labels: got labels of different kinds"):
+        neighborhood_hit([[0, 0], [1, 0], [9, 0]], ["a", None, "b"], 1)

@@ -46,6 +46,13 @@ def test_each_form_is_its_formula(form, expected):
     assert form(DISTANCES, EMBEDDING) == pytest.approx(expected, rel=1e-12)
 
 
+def test_tiny_stress_is_not_lost_in_rounding():
+    """A billionth off, Kruskal's stress is a billionth; kept exactly, it is 0 to rounding."""
+    distances = cdist(EMBEDDING, EMBEDDING)
+    assert kruskal_stress(distances, EMBEDDING) < 1e-15
+    assert kruskal_stress(distances, EMBEDDING * (1 + 1e-9)) == pytest.approx(1e-9, rel=1e-5)
+
+
 def test_normalized_stress_agrees_with_zadu():
     """ZADU's stress is its root."""
     theirs = zadu_stress.measure(VECTORS, EMBEDDING)["stress"]

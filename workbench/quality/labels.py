@@ -35,7 +35,8 @@ def neighborhood_hit(embedding: ArrayLike, labels: ArrayLike, k: int) -> NDArray
     Raises
     ------
     WorkbenchError
-        If there is not one label for each position, or the size is out of range.
+        If there is not one label for each position, labels cannot be compared, or the size
+        is out of range.
 
     Examples
     --------
@@ -46,7 +47,10 @@ def neighborhood_hit(embedding: ArrayLike, labels: ArrayLike, k: int) -> NDArray
     found = np.asarray(labels)
     if found.shape != (len(points),):
         raise WorkbenchError(f"labels: got shape {found.shape}, want ({len(points)},)")
-    _, codes = np.unique(found, return_inverse=True)
+    try:
+        _, codes = np.unique(found, return_inverse=True)
+    except TypeError:
+        raise WorkbenchError("labels: got labels of different kinds, want one kind") from None
     size = as_size(k, len(points), len(points) - 1)
     unit = rounding_unit(points)
     hits = np.empty(len(points))

@@ -30,18 +30,15 @@ class PairSums:
 
     Attributes
     ----------
-    data, product, embedding : float
-        Σ d_ij², Σ d_ij·δ_ij and Σ δ_ij².
+    data, product, embedding, raw : float
+        Σ d_ij², Σ d_ij·δ_ij, Σ δ_ij² and Σ (δ_ij − d_ij)². The last one follows from the
+        others only as long as it is not small beside them.
     """
 
     data: float
     product: float
     embedding: float
-
-    @property
-    def raw(self) -> float:
-        """Σ (δ_ij − d_ij)²."""
-        return max(0.0, self.embedding - 2.0 * self.product + self.data)
+    raw: float
 
     @property
     def stress(self) -> float:
@@ -249,15 +246,17 @@ def pair_sums(data: NDArray[np.float64], points: NDArray[np.float64]) -> PairSum
     WorkbenchError
         If all points of the embedding coincide.
     """
-    data2 = product = points2 = 0.0
+    data2 = product = points2 = raw = 0.0
     for rows, delta in row_blocks(data, points):
         data2 += float(np.einsum("ij,ij", rows, rows))
         product += float(np.einsum("ij,ij", rows, delta))
         points2 += float(np.einsum("ij,ij", delta, delta))
+        delta -= rows
+        raw += float(np.einsum("ij,ij", delta, delta))
     if points2 == 0:
         raise WorkbenchError("embedding: got one place for all samples, want different places")
     # Each pair was met twice.
-    return PairSums(data2 / 2.0, product / 2.0, points2 / 2.0)
+    return PairSums(data2 / 2.0, product / 2.0, points2 / 2.0, raw / 2.0)
 
 
 def row_blocks(
