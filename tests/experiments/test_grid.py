@@ -257,7 +257,7 @@ def test_warnings_are_kept_with_the_result(tmp_path: Path):
     with warnings.catch_warnings(record=True) as printed:
         table = run_grid(runs, tmp_path)
     assert printed == []
-    assert all("falls into parts" in text for text in table["warnings"])
+    assert all("falls into 2 parts" in text for text in table["warnings"])
 
 
 def test_repetitions_are_one_run(tmp_path: Path):

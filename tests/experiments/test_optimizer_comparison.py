@@ -92,8 +92,8 @@ def test_errors_and_costs_are_relative_to_alg12():
     assert row["error / Alg. 12", "median"] == pytest.approx((1.2 + 0.9) / 2)
     assert row["error / Alg. 12", "largest"] == pytest.approx(1.2)
     assert row["error / Alg. 12", "runs above 1"] == "1 of 2"
-    assert row["cost / Alg. 12, mean", "effort"] == pytest.approx((200 + 400) / 2 / 2000)
-    assert row["cost / Alg. 12, mean", "seconds"] == pytest.approx(0.25)
+    assert row["cost / Alg. 12", "effort, mean"] == pytest.approx((200 + 400) / 2 / 2000)
+    assert row["cost / Alg. 12", "seconds, median"] == pytest.approx(0.25)
     assert row["stress, after / before, median", "Eq. 4.1"] == pytest.approx(0.85)
     assert row["change, median", "trustworthiness"] == pytest.approx(0.025)
 
@@ -103,7 +103,7 @@ def test_alg12_is_its_own_measure():
     row = optimizer_table(compare_optimizers(TABLE)).loc["all, alg12"]
     assert row["error / Alg. 12", "largest"] == 1
     assert row["error / Alg. 12", "runs above 1"] == "0 of 2"
-    assert row["cost / Alg. 12, mean", "effort"] == 1
+    assert row["cost / Alg. 12", "effort, mean"] == 1
 
 
 def test_runs_that_end_higher_are_named():
@@ -130,9 +130,9 @@ def test_markers_are_compared_with_the_global_optimizer():
     moved, exchanged = table.loc["PCA, move"], table.loc["PCA, exchange"]
     assert moved["error / global alone", "median"] == pytest.approx(0.75)
     assert exchanged["error / global alone", "median"] == pytest.approx(0.5)
-    assert moved["cost / global alone, mean", "effort"] == pytest.approx(2)
-    assert exchanged["cost / global alone, mean", "effort"] == pytest.approx(4)
-    assert moved["cost / global alone, mean", "seconds"] == pytest.approx((1 + 8) / 2)
+    assert moved["cost / global alone", "effort, mean"] == pytest.approx(2)
+    assert exchanged["cost / global alone", "effort, mean"] == pytest.approx(4)
+    assert moved["cost / global alone", "seconds, median"] == pytest.approx((1 + 8) / 2)
 
 
 def test_alg12_and_raw_runs_are_those_of_table_5_1():

@@ -9,7 +9,7 @@ import pytest
 from workbench.datasets import Status, list_datasets, load
 from workbench.errors import DataError, WorkbenchError
 from workbench.experiments import profiles
-from workbench.experiments.profiles import absent_tables, fetch_small_tables, motion_clips
+from workbench.experiments.profiles import absent_tables, fetch_tables, motion_clips
 
 PAGE_BLOCKS = "uci/page-blocks"
 
@@ -46,22 +46,20 @@ def test_full_without_such_clips_says_what_to_do(monkeypatch):
 
 
 def test_tables_that_are_not_used_have_a_reason(monkeypatch, tmp_path):
-    """Bundled tables are used; a large and a missing one are left out with a reason each."""
+    """Bundled tables are used; missing ones are left out with a reason each."""
     monkeypatch.delenv("WORKBENCH_DATA", raising=False)
     monkeypatch.setenv("WORKBENCH_CACHE", str(tmp_path))
     names = ["uci/iris", "uci/wine", "uci/yeast", "uci/ionosphere", "uci/seeds", "uci/page-blocks"]
-    reasons = absent_tables("quick", names)
+    reasons = absent_tables(names)
     assert set(reasons) == {"uci/seeds", "uci/page-blocks"}
     assert "`workbench datasets fetch uci/seeds`" in reasons["uci/seeds"]
-    assert "quick profile" in reasons["uci/page-blocks"]
-    assert "fetch uci/page-blocks" in absent_tables("full", names)["uci/page-blocks"]
+    assert "`workbench datasets fetch uci/page-blocks`" in reasons["uci/page-blocks"]
 
 
-def test_quick_uses_cloud_when_it_is_found(monkeypatch):
-    """Of the tables that are here, only Page blocks is too large for the quick profile."""
+def test_every_table_that_is_found_is_used(monkeypatch):
+    """Cloud and Page blocks, which are not bundled, are used when they are here."""
     monkeypatch.setattr(profiles, "_present", lambda: [_found("uci/cloud"), _found(PAGE_BLOCKS)])
-    assert set(absent_tables("quick", ["uci/cloud", PAGE_BLOCKS])) == {PAGE_BLOCKS}
-    assert absent_tables("full", ["uci/cloud", PAGE_BLOCKS]) == {}
+    assert absent_tables(["uci/cloud", PAGE_BLOCKS]) == {}
 
 
 def test_an_unknown_profile_is_refused():
@@ -70,13 +68,13 @@ def test_an_unknown_profile_is_refused():
         motion_clips("quik")
 
 
-def test_small_tables_are_fetched_and_failures_are_told() -> None:
-    """Only tables that are missing and small are asked for; one that fails is named."""
+def test_tables_are_fetched_and_failures_are_told() -> None:
+    """Only tables that are missing are asked for; one that fails is named."""
     asked = []
 
     def fetch(name: str) -> None:
         asked.append(name)
         raise DataError("no network")
 
-    missed = fetch_small_tables(["uci/iris", "uci/page-blocks", "uci/unheard-of"], fetch=fetch)
+    missed = fetch_tables(["uci/iris", "uci/unheard-of"], fetch=fetch)
     assert asked == missed == ["uci/unheard-of"]

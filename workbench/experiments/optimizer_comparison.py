@@ -92,8 +92,9 @@ def optimizer_table(compared: pd.DataFrame) -> pd.DataFrame:
             ("error / Alg. 12", "median"): rows["error_ratio"].median(),
             ("error / Alg. 12", "largest"): rows["error_ratio"].max(),
             ("error / Alg. 12", "runs above 1"): f"{_is_higher(rows).sum()} of {len(rows)}",
-            ("cost / Alg. 12, mean", "effort"): rows["effort_ratio"].mean(),
-            ("cost / Alg. 12, mean", "seconds"): rows["seconds_ratio"].mean(),
+            ("cost / Alg. 12", "effort, mean"): rows["effort_ratio"].mean(),
+            # The first run of a process loads its kernels, which would rule a mean.
+            ("cost / Alg. 12", "seconds, median"): rows["seconds_ratio"].median(),
             ("stress, after / before, median", "Eq. 4.1"): rows["stress_ratio"].median(),
             ("stress, after / before, median", "scale-normalised"): rows[
                 "scale_normalized_stress_ratio"
@@ -126,8 +127,8 @@ def marker_table(compared: pd.DataFrame) -> pd.DataFrame:
             ("error / global alone", "median"): rows["error_ratio"].median(),
             ("error / global alone", "smallest"): rows["error_ratio"].min(),
             ("error / global alone", "largest"): rows["error_ratio"].max(),
-            ("cost / global alone, mean", "effort"): rows["effort_ratio"].mean(),
-            ("cost / global alone, mean", "seconds"): rows["seconds_ratio"].mean(),
+            ("cost / global alone", "effort, mean"): rows["effort_ratio"].mean(),
+            ("cost / global alone", "seconds, median"): rows["seconds_ratio"].median(),
             ("runs", ""): len(rows),
         },
         "projector, markers",

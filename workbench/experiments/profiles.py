@@ -13,10 +13,6 @@ if TYPE_CHECKING:
 #: Lengths of the 70 clips of Costa 2018, in frames.
 SHORTEST, LONGEST = 129, 1146
 
-#: Tables too large for the quick profile: Page blocks, 5473 rows, adds almost a minute on two
-#: cores, most of it to measure the quality of its embeddings.
-LARGE_TABLES = ("uci/page-blocks",)
-
 
 def motion_clips(profile: str) -> list[str]:
     """Choose the clips of a profile.
@@ -54,45 +50,41 @@ def motion_clips(profile: str) -> list[str]:
     return names
 
 
-def absent_tables(profile: str, datasets: Iterable[str]) -> dict[str, str]:
-    """Tell which tables a profile goes without, and why.
+def absent_tables(datasets: Iterable[str]) -> dict[str, str]:
+    """Tell which tables are not on this machine, and how to get them.
+
+    Both profiles take all tables that are found: even Page blocks, the largest, takes no more
+    than some ten seconds.
 
     Parameters
     ----------
-    profile : {"quick", "full"}
-        ``quick`` leaves out large tables; ``full`` takes all that are found.
     datasets : iterable of str
         Names of tables.
 
     Returns
     -------
     dict of str to str
-        For each table that is not used the reason, one sentence.
+        For each table that is not there a sentence.
     """
-    quick = _is_quick(profile)
     present = {status.entry.name for status in _present()}
-    reasons = {}
-    for name in datasets:
-        if quick and name in LARGE_TABLES:
-            reasons[name] = f"{name} is too large for the quick profile; the full one uses it."
-        elif name not in present:
-            reasons[name] = (
-                f"{name} is not on this machine; `workbench datasets fetch {name}` downloads it."
-            )
-    return reasons
+    return {
+        name: f"{name} is not on this machine; `workbench datasets fetch {name}` downloads it."
+        for name in datasets
+        if name not in present
+    }
 
 
-def fetch_small_tables(
+def fetch_tables(
     datasets: Iterable[str], *, fetch: Callable[[str], object] | None = None
 ) -> list[str]:
-    """Download small tables that are on this machine in no folder, if seconds suffice.
+    """Download tables that are on this machine in no folder, if seconds suffice.
 
-    The quick profile runs without them too, so a download that fails is no error.
+    A reproduction runs without them too, so a download that fails is no error.
 
     Parameters
     ----------
     datasets : iterable of str
-        Names of tables; large ones are left out.
+        Names of tables.
     fetch : callable, optional
         Downloads one table by name; by default within 5 seconds for each file.
 
@@ -104,7 +96,7 @@ def fetch_small_tables(
     present = {status.entry.name for status in _present()}
     missed = []
     for name in datasets:
-        if name not in present and name not in LARGE_TABLES:
+        if name not in present:
             try:
                 (fetch or _fetch_within_seconds)(name)
             except DataError:

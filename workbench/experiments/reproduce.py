@@ -14,7 +14,7 @@ from workbench.experiments.images import write_pngs
 from workbench.experiments.items import EXTRAS, ITEMS, Item, item_state, select_items
 from workbench.experiments.notebooks import run_notebook
 from workbench.experiments.outputs import forget, read_parts
-from workbench.experiments.profiles import fetch_small_tables
+from workbench.experiments.profiles import fetch_tables
 from workbench.experiments.progress import duration
 from workbench.experiments.report import write_report
 from workbench.experiments.uci_projections import UCI_FIGURES
@@ -144,7 +144,7 @@ def reproduce_items(
     }
     ids = [item.id for item in items]
     tables = [figure.dataset for figure in UCI_FIGURES if figure.item in ids]
-    for table in fetch_small_tables(tables):
+    for table in fetch_tables(tables):
         progress(f"{table} is not here and was not to be had within seconds: going on without it")
     names = list(dict.fromkeys(item.notebook for item in items))
     errors = {}
