@@ -65,7 +65,7 @@ ITEMS = (
     _uci(17, 37, "Yeast, projected by t-SNE"),
     Item(
         "extra:optimizers",
-        "The optimizers `local` and `global` beside Alg. 12",
+        "Our optimizers, local and global, beside Alg. 12",
         "Not in the thesis, whose optimizer is Costa 2018, Alg. 12",
         OPTIMIZERS,
     ),

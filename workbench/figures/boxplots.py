@@ -109,9 +109,21 @@ def box_plot(
     if reference is None:
         figure.update_yaxes(title_text=y_title, rangemode="tozero", tickformat=".1f")
     else:
-        figure.update_yaxes(title_text=y_title, tickformat=".2f")
+        figure.update_yaxes(
+            title_text=y_title, tickformat=".2f", range=_range_of(groups, reference)
+        )
         figure.add_hline(reference, line={"color": BLACK, "width": 1, "dash": "dot"})
     return figure.update_layout(height=460)
+
+
+def _range_of(groups: Mapping[str, Mapping[str, Box]], reference: float) -> list[float]:
+    """Find the range that shows all values; plotly's own includes 0 where quartiles are given."""
+    boxes = [box for source in groups.values() for box in source.values()]
+    ends = [(box.whisker_bottom, box.whisker_top, *box.outliers) for box in boxes]
+    values = [reference, *(value for end in ends for value in end)]
+    low, high = min(values), max(values)
+    margin = 0.05 * (high - low) or 0.05
+    return [low - margin, high + margin]
 
 
 def _faded(color: str) -> str:
