@@ -12,6 +12,7 @@ from workbench.validation import (
     as_embedding,
     control_point_count,
     control_point_indices,
+    whole_number,
 )
 
 
@@ -96,3 +97,17 @@ def test_a_matrix_that_is_not_symmetric_is_found_anywhere():
         broken[i, j] += 0.01
         with pytest.raises(WorkbenchError, match="not symmetric"):
             as_distances(broken)
+
+
+def test_a_sample_is_at_no_distance_from_itself():
+    """A matrix of similarities, 1 on the diagonal, is not taken for one of distances."""
+    with pytest.raises(WorkbenchError, match=r"got 1\.0 from a sample to itself"):
+        as_distances(np.ones((4, 4)))
+
+
+@pytest.mark.parametrize("value", [0, 2.5, "3", True, None], ids=repr)
+def test_what_is_no_whole_number_is_named(value):
+    """The setting and its value are in the message; numpy's integers are fine."""
+    with pytest.raises(WorkbenchError, match="sweeps: got"):
+        whole_number("sweeps", value)
+    assert whole_number("sweeps", np.int64(3)) == 3

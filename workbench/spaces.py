@@ -516,4 +516,8 @@ def check_space(space: Any) -> None:
 
 
 def _index(indices: ArrayLike) -> NDArray[np.intp]:
-    return np.asarray(indices, dtype=np.intp)
+    """Take indices of samples, refusing fractions, which numpy would cut off."""
+    array = np.asarray(indices)
+    if array.size and array.dtype.kind not in "iu":
+        raise WorkbenchError(f"indices: got {array.dtype}, want whole numbers")
+    return array.astype(np.intp)

@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from numbers import Integral, Real
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -154,7 +155,25 @@ def as_distances(distances: ArrayLike, n: int | None = None) -> NDArray[np.float
         raise WorkbenchError(f"distances: got {array.min()}, want none below 0")
     if not _is_symmetric(array):
         raise WorkbenchError("distances: got a matrix that is not symmetric")
+    largest = float(array.max()) if array.size else 0.0
+    if np.any(np.diagonal(array) > 1e-6 * largest):
+        raise WorkbenchError(
+            f"distances: got {np.diagonal(array).max()} from a sample to itself, want 0"
+        )
     return array
+
+
+def whole_number(name: str, value: Any, at_least: int = 1) -> int:
+    """Refuse a setting that is no whole number, or too small.
+
+    Raises
+    ------
+    WorkbenchError
+        If it is not; the message names the setting.
+    """
+    if not isinstance(value, Integral) or isinstance(value, bool) or value < at_least:
+        raise WorkbenchError(f"{name}: got {value!r}, want a whole number above {at_least - 1}")
+    return int(value)
 
 
 def _is_symmetric(array: NDArray[np.float64], block: int = 256) -> bool:

@@ -451,6 +451,7 @@ BY_EVERY_REGISTRY: tuple[Case, ...] = (
 def of_registries() -> Iterator[Refused]:
     for register in (
         "register_back_projector",
+        "register_control_point_projector",
         "register_dataset",
         "register_interpolator",
         "register_optimizer",

@@ -14,6 +14,7 @@ from workbench.optimization.local_search import check_limits
 from workbench.optimization.objective import Callback, Objective, OptimizationResult
 from workbench.optimization.progress import Bounds, Progress, as_bounds
 from workbench.optimization.trust_region import ErrorModel
+from workbench.validation import whole_number
 
 #: Nearest control points that a control point makes a starting point with, halfway.
 _HALFWAY = 3
@@ -93,8 +94,7 @@ class GlobalSearch:
             ("scouts", scouts),
             ("starts", starts),
         ):
-            if not isinstance(value, int) or value < 1:
-                raise WorkbenchError(f"{name}: got {value}, want a whole number above 0")
+            whole_number(name, value)
         if not 0 <= padding < np.inf:
             raise WorkbenchError(f"padding: got {padding}, want 0 or a number above")
         self.grid = grid

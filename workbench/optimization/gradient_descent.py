@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike, NDArray
 from workbench.errors import WorkbenchError
 from workbench.optimization.objective import Callback, Objective, OptimizationResult
 from workbench.optimization.progress import as_neighbors, neighbor_radii
-from workbench.validation import as_embedding, control_point_indices
+from workbench.validation import as_embedding, control_point_indices, whole_number
 
 
 class GradientDescent:
@@ -65,8 +65,7 @@ class GradientDescent:
             if not value > 0:
                 raise WorkbenchError(f"{name}: got {value}, want a number above 0")
         for name, value in (("max_sweeps", max_sweeps), ("patience", patience)):
-            if not isinstance(value, int) or value < 1:
-                raise WorkbenchError(f"{name}: got {value}, want a whole number above 0")
+            whole_number(name, value)
         if not tol >= 0:
             raise WorkbenchError(f"tol: got {tol}, want 0 or a number above")
         self.step = step

@@ -9,6 +9,7 @@ from workbench.errors import WorkbenchError
 from workbench.optimization.descent import Descent
 from workbench.optimization.objective import Callback, Objective, OptimizationResult
 from workbench.optimization.progress import Bounds, Progress, as_bounds
+from workbench.validation import whole_number
 
 
 class LocalSearch:
@@ -127,5 +128,4 @@ def check_limits(tolerance: float, max_iterations: int) -> None:
     """
     if not tolerance >= 0:
         raise WorkbenchError(f"tolerance: got {tolerance}, want 0 or a number above")
-    if not isinstance(max_iterations, int) or max_iterations < 1:
-        raise WorkbenchError(f"max_iterations: got {max_iterations}, want a whole number above 0")
+    whole_number("max_iterations", max_iterations)

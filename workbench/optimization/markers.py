@@ -16,11 +16,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.backprojection import BackProjector
-from workbench.errors import WorkbenchError
 from workbench.optimization.objective import Callback, Effort, Objective
 from workbench.registry import Registry, fresh_copy
 from workbench.spaces import Space, check_space
-from workbench.validation import as_embedding, control_point_indices
+from workbench.validation import as_embedding, control_point_indices, whole_number
 
 #: Relative improvement of a round below which the search ends.
 _WORTHWHILE = 1e-3
@@ -105,10 +104,8 @@ class MarkerSearch(ABC):
     min_rounds = 1
 
     def __init__(self, *, optimizer: Any = None, max_rounds: int = 10) -> None:
-        if not isinstance(max_rounds, int) or max_rounds < 1:
-            raise WorkbenchError(f"max_rounds: got {max_rounds}, want a whole number above 0")
         self.optimizer = optimizer
-        self.max_rounds = max_rounds
+        self.max_rounds = whole_number("max_rounds", max_rounds)
 
     def search(
         self,
@@ -204,7 +201,7 @@ class MoveMarkers(MarkerSearch):
         apart = away[away > 0]
         if not len(apart):
             return
-        length = 0.5 ** (1 + run.rounds) * apart.min()
+        length = 0.5**run.rounds * apart.min()
         for direction in np.concatenate([np.eye(places.shape[1]), -np.eye(places.shape[1])]):
             embedding = markers.embedding.copy()
             embedding[markers.control_points[rank]] += length * direction

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.quality.inputs import as_points
-from workbench.validation import as_distances, require_memory
+from workbench.validation import as_distances, require_memory, whole_number
 
 
 @dataclass(frozen=True)
@@ -73,14 +73,13 @@ def shepard_pairs(
     n_all = n * (n - 1) // 2
     if n_pairs is None:
         n_pairs = n_all
-    if not isinstance(n_pairs, int | np.integer) or isinstance(n_pairs, bool) or n_pairs < 1:
-        raise WorkbenchError(f"n_pairs: got {n_pairs!r}, want a whole number above 0")
-    n_pairs = min(int(n_pairs), n_all)
+    n_pairs = min(whole_number("n_pairs", n_pairs), n_all)
+    seed = whole_number("random_state", random_state, at_least=0)
     require_memory(96.0 * n_pairs, f"a list of {n_pairs} pairs", "give a smaller n_pairs")
     if n_pairs == n_all:
         first, second = np.triu_indices(n, k=1)
     else:
-        chosen = np.random.default_rng(random_state).choice(n_all, n_pairs, replace=False)
+        chosen = np.random.default_rng(seed).choice(n_all, n_pairs, replace=False)
         first, second = _pair_of(np.sort(chosen), n)
     apart = np.sqrt(sum((axis[first] - axis[second]) ** 2 for axis in points.T))
     return ShepardPairs(first, second, data[first, second], apart)
