@@ -23,7 +23,7 @@ reproduce: $(VENV)/installed ## Regenerate the figures and tables on bundled dat
 	$(BIN)/workbench reproduce --profile quick --out $(REPORT)
 
 test: $(VENV)/installed ## Run all tests
-	$(BIN)/python -m pytest
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile
 
 bench: $(VENV)/installed ## Measure the hot paths beside their baselines
 	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[bench]'

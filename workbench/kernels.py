@@ -119,7 +119,7 @@ class _CompilationNotice(event.Listener):
         if not self._said and module.startswith("workbench."):
             self._said = True
             print(  # noqa: T201 - stderr, so that --json output stays clean
-                "workbench: compiling numerical kernels, some seconds, only this once",
+                "workbench: compiling numerical kernels, up to a minute, only this once",
                 file=sys.stderr,
             )
 
