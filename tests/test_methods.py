@@ -14,6 +14,7 @@ import workbench.quality
 from workbench.backprojection import back_projectors
 from workbench.interpolation import interpolators
 from workbench.optimization import optimizers
+from workbench.optimization.markers import marker_searches
 from workbench.projection import control_point_projectors, projectors
 from workbench.selection import selectors
 
@@ -27,6 +28,7 @@ REGISTRIES = {
     "Control-point projectors": control_point_projectors,
     "Back-projectors": back_projectors,
     "Optimizers": optimizers,
+    "Marker searches": marker_searches,
 }
 
 #: Functions of workbench.quality that measure nothing: checks, parts of measures, defaults.

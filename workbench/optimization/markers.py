@@ -178,7 +178,15 @@ class MarkerSearch(ABC):
 class MoveMarkers(MarkerSearch):
     """Move each marker along the axes, as far as half the way to its nearest other marker.
 
-    The steps are halved from round to round.
+    The steps are halved from round to round, so a round without success is no reason to end
+    before the fourth.
+
+    Parameters
+    ----------
+    optimizer : optimizer, optional
+        Moves the other samples after each round; by default the local search.
+    max_rounds : int
+        Upper limit of rounds.
 
     Examples
     --------
@@ -213,6 +221,13 @@ class ExchangeMarkers(MarkerSearch):
 
     Tried are the neighbours of its neighbours' neighbours too: three frames to each side in a
     motion. Positions stay; which samples are kept changes.
+
+    Parameters
+    ----------
+    optimizer : optimizer, optional
+        Moves the other samples after each round; by default the local search.
+    max_rounds : int
+        Upper limit of rounds.
     """
 
     def _proposals(
