@@ -12,11 +12,38 @@ os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 import numpy as np
 import pytest
 
+from workbench.backprojection import back_projectors
 from workbench.cli import main
+from workbench.datasets import loaders
+from workbench.interpolation import interpolators
 from workbench.mocap.motion import Motion
 from workbench.mocap.rotations import rotations_from_euler
 from workbench.mocap.skeleton import EndSite, Skeleton
+from workbench.optimization import optimizers
+from workbench.optimization.markers import marker_searches
+from workbench.projection import control_point_projectors, projectors
 from workbench.resources import bundled
+from workbench.selection import selectors
+
+REGISTRIES = (
+    back_projectors,
+    control_point_projectors,
+    interpolators,
+    marker_searches,
+    optimizers,
+    projectors,
+    selectors,
+    loaders._registered,
+)
+
+
+@pytest.fixture(autouse=True)
+def registrations_end_with_the_test():
+    """Forget what a test has registered, so that no other test finds it."""
+    before = [dict(registry._entries) for registry in REGISTRIES]
+    yield
+    for registry, entries in zip(REGISTRIES, before, strict=True):
+        registry._entries = entries
 
 
 def data_folders() -> list[Path]:

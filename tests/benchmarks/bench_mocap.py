@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
-import pybvh
 
 from tests.benchmarks.measuring import Measurement, compare
 from tests.conftest import find_clip
@@ -17,6 +16,9 @@ from workbench.mocap.kinematics import forward_kinematics
 
 def measurements() -> Iterator[Measurement]:
     """Compare on the clip 01_03 of 4511 frames with 31 joints."""
+    # Imported here: it comes with the extra `bench` only.
+    import pybvh
+
     path = find_clip("01_03")
     motion = read_bvh(path)
     theirs = pybvh.read_bvh_file(path)

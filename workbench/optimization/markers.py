@@ -176,7 +176,7 @@ class MarkerSearch(ABC):
 
 
 class MoveMarkers(MarkerSearch):
-    """Move each marker along the axes, as far as half the way to its nearest other marker.
+    """Move each marker along the axes, as far as a quarter of the way to its nearest other marker.
 
     The steps are halved from round to round, so a round without success is no reason to end
     before the fourth.
@@ -209,7 +209,7 @@ class MoveMarkers(MarkerSearch):
         apart = away[away > 0]
         if not len(apart):
             return
-        length = 0.5**run.rounds * apart.min()
+        length = 0.5 ** (1 + run.rounds) * apart.min()
         for direction in np.concatenate([np.eye(places.shape[1]), -np.eye(places.shape[1])]):
             embedding = markers.embedding.copy()
             embedding[markers.control_points[rank]] += length * direction
