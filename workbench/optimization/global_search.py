@@ -6,13 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.optimization.descent import Descent
-from workbench.optimization.local_search import check_limits
-from workbench.optimization.objective import Callback, Objective, OptimizationResult
-from workbench.optimization.progress import Bounds, Progress, as_bounds
+from workbench.optimization.objective import Objective
+from workbench.optimization.progress import Bounds, Progress
+from workbench.optimization.search import Search
 from workbench.optimization.trust_region import ErrorModel
 from workbench.validation import whole_number
 
@@ -26,7 +26,7 @@ _TABLE = 2**20
 _WORTHWHILE = 1e-3
 
 
-class GlobalSearch:
+class GlobalSearch(Search):
     """Lower every sample's error wherever in the plane that is possible, never raising one.
 
     The same problem as that of Costa 2018, Alg. 12, whose result depends on the start: where
@@ -87,7 +87,7 @@ class GlobalSearch:
         max_iterations: int = 50,
         bounds: Bounds | None = None,
     ) -> None:
-        check_limits(tolerance, max_iterations)
+        super().__init__(tolerance=tolerance, max_iterations=max_iterations, bounds=bounds)
         for name, value in (
             ("grid", grid),
             ("share", share),
@@ -102,51 +102,16 @@ class GlobalSearch:
         self.share = share
         self.scouts = scouts
         self.starts = starts
-        self.tolerance = tolerance
-        self.max_iterations = max_iterations
-        self.bounds = bounds
 
-    def optimize(
+    def _steps(
         self,
         objective: Objective,
-        embedding: ArrayLike,
-        free: ArrayLike,
-        neighbors: ArrayLike,
-        callback: Callback | None = None,
-    ) -> OptimizationResult:
-        """Search for better positions of the free points.
-
-        Parameters
-        ----------
-        objective : Objective
-            Errors of samples at positions.
-        embedding : array-like of shape (n_samples, n_dimensions)
-            Start; points that are not free are never moved.
-        free : array-like of shape (n_free,)
-            Sorted indices of the samples to move.
-        neighbors : array-like of shape (n_samples, 2)
-            Two neighbours of each sample.
-        callback : callable, optional
-            ``callback(iteration, mean_error, embedding)``; a true result stops the search.
-
-        Returns
-        -------
-        OptimizationResult
-
-        Raises
-        ------
-        WorkbenchError
-            If the arrays do not fit each other, the start is out of bounds, or the
-            back-projector gives values that are not finite.
-        """
-        progress = Progress(objective, embedding, free, neighbors, callback)
-        bounds = as_bounds(self.bounds, progress.embedding)
+        progress: Progress,
+        bounds: tuple[NDArray[np.float64], NDArray[np.float64]],
+    ) -> Iterator[None]:
         progress.begin(objective(progress.points, progress.free))
-        search = _Search(objective, progress, bounds, self)
-        for _ in search.run():
-            if not progress.record():
-                break
-        return progress.result(search.reason)
+        progress.reason = "no sample found a better place"
+        yield from _Run(objective, progress, bounds, self).steps()
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +123,7 @@ class _CoarsePoints:
     spacing: float
 
 
-class _Search:
+class _Run:
     """One run of the global search."""
 
     def __init__(
@@ -173,9 +138,8 @@ class _Search:
         self.bounds = bounds
         self.settings = settings
         self.radii = progress.radii
-        self.reason = "no sample found a better place"
 
-    def run(self) -> Iterator[None]:
+    def steps(self) -> Iterator[None]:
         """Search, yielding after each iteration."""
         every = np.arange(len(self.progress.free))
         coarse = self._coarse_points()
@@ -272,7 +236,7 @@ class _Search:
             promising = promised < (1.0 - _WORTHWHILE) * progress.errors[which]
             which, starts = which[promising], places[ask[promising]]
             yield from self._descend(which, starts, self.radii[which])
-        self.reason = f"reached {self.settings.max_iterations} rounds among neighbours"
+        progress.reason = f"reached {self.settings.max_iterations} rounds among neighbours"
 
     def _promised(
         self, which: NDArray[np.intp], places: NDArray[np.float64], within: NDArray[np.float64]

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import NDArray
 
-from workbench.errors import WorkbenchError
 from workbench.optimization.descent import Descent
-from workbench.optimization.objective import Callback, Objective, OptimizationResult
-from workbench.optimization.progress import Bounds, Progress, as_bounds
-from workbench.validation import whole_number
+from workbench.optimization.objective import Objective
+from workbench.optimization.progress import Progress
+from workbench.optimization.search import Search
 
 
-class LocalSearch:
+class LocalSearch(Search):
     """Lower every sample's error from where it is, without ever raising one.
 
     The same problem as that of Costa 2018, Alg. 12, with checked steps. Where the
@@ -48,53 +49,12 @@ class LocalSearch:
     True
     """
 
-    def __init__(
-        self,
-        *,
-        tolerance: float = 1e-3,
-        max_iterations: int = 50,
-        bounds: Bounds | None = None,
-    ) -> None:
-        check_limits(tolerance, max_iterations)
-        self.tolerance = tolerance
-        self.max_iterations = max_iterations
-        self.bounds = bounds
-
-    def optimize(
+    def _steps(
         self,
         objective: Objective,
-        embedding: ArrayLike,
-        free: ArrayLike,
-        neighbors: ArrayLike,
-        callback: Callback | None = None,
-    ) -> OptimizationResult:
-        """Search for better positions of the free points.
-
-        Parameters
-        ----------
-        objective : Objective
-            Errors of samples at positions.
-        embedding : array-like of shape (n_samples, n_dimensions)
-            Start; points that are not free are never moved.
-        free : array-like of shape (n_free,)
-            Sorted indices of the samples to move.
-        neighbors : array-like of shape (n_samples, 2)
-            Two neighbours of each sample.
-        callback : callable, optional
-            ``callback(iteration, mean_error, embedding)``; a true result stops the search.
-
-        Returns
-        -------
-        OptimizationResult
-
-        Raises
-        ------
-        WorkbenchError
-            If the arrays do not fit each other, the start is out of bounds, or the
-            back-projector gives values that are not finite.
-        """
-        progress = Progress(objective, embedding, free, neighbors, callback)
-        bounds = as_bounds(self.bounds, progress.embedding)
+        progress: Progress,
+        bounds: tuple[NDArray[np.float64], NDArray[np.float64]],
+    ) -> Iterator[None]:
         descent = Descent(
             objective,
             progress.free,
@@ -105,27 +65,10 @@ class LocalSearch:
             self.max_iterations,
         )
         progress.begin(descent.errors)
+        progress.reason = "every sample came to rest"
         every = np.arange(len(progress.free))
-        iterations = 0
-        for _ in descent.run():
-            iterations += 1
+        for number, _ in enumerate(descent.run(), start=1):
             progress.place(every, descent.points, descent.errors)
-            if not progress.record():
-                break
-        reached_limit = iterations == self.max_iterations
-        return progress.result(
-            f"reached {iterations} iterations" if reached_limit else "every sample came to rest"
-        )
-
-
-def check_limits(tolerance: float, max_iterations: int) -> None:
-    """Refuse limits that no search could keep.
-
-    Raises
-    ------
-    WorkbenchError
-        If the tolerance is negative or there are no iterations.
-    """
-    if not tolerance >= 0:
-        raise WorkbenchError(f"tolerance: got {tolerance}, want 0 or a number above")
-    whole_number("max_iterations", max_iterations)
+            if number == self.max_iterations:
+                progress.reason = f"reached {number} iterations"
+            yield

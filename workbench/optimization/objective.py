@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -125,7 +125,7 @@ class Objective:
             If the back-projector or the error measure gives values that are not finite, or
             of another shape.
         """
-        self._count(evaluations=len(points), distances=len(points))
+        self.effort += Effort(evaluations=len(points), distances=len(points))
         indices = np.asarray(indices)
         errors = np.empty(len(points))
         for block in _blocks(len(points), _BLOCK):
@@ -157,7 +157,7 @@ class Objective:
         """
         assert self._space is not None
         n, dimensions = points.shape
-        self._count(evaluations=n, jacobians=n, distances=n)
+        self.effort += Effort(evaluations=n, jacobians=n, distances=n)
         indices = np.asarray(indices)
         errors = np.empty(n)
         gradients = np.empty((n, dimensions))
@@ -182,7 +182,7 @@ class Objective:
         -------
         ndarray of shape (n_points, ...)
         """
-        self._count(evaluations=len(points))
+        self.effort += Effort(evaluations=len(points))
         rebuilt: NDArray[np.float64] = self._back_projector.predict(points)
         return rebuilt
 
@@ -208,7 +208,7 @@ class Objective:
             As for a call.
         """
         n = len(reconstructions)
-        self._count(distances=len(indices) * n)
+        self.effort += Effort(distances=len(indices) * n)
         if self._space is not None:
             return self._space.error_table(indices, reconstructions)
         rows = [self._measured(np.full(n, index), reconstructions) for index in indices]
@@ -241,14 +241,6 @@ class Objective:
                 f"jacobian of the back-projector: got shape {np.shape(jacobians)}, want {wanted}"
             )
         return rebuilt, jacobians
-
-    def _count(self, evaluations: int = 0, jacobians: int = 0, distances: int = 0) -> None:
-        self.effort = replace(
-            self.effort,
-            evaluations=self.effort.evaluations + evaluations,
-            jacobians=self.effort.jacobians + jacobians,
-            distances=self.effort.distances + distances,
-        )
 
 
 @dataclass(frozen=True)

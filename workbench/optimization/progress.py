@@ -41,6 +41,8 @@ class Progress:
         Their current errors, from :meth:`begin` on.
     stopped : bool
         Whether the callback has asked to stop.
+    reason : str
+        Why the search ends otherwise.
 
     Raises
     ------
@@ -60,6 +62,7 @@ class Progress:
         self.free = control_point_indices(free, len(self.embedding), name="free")
         self.neighbors = as_neighbors(neighbors, len(self.embedding))[self.free]
         self.stopped = False
+        self.reason = ""
         self._objective = objective
         self._callback = callback
         self._started_at = objective.effort
@@ -121,7 +124,7 @@ class Progress:
             self.stopped = True
         return not self.stopped
 
-    def result(self, reason: str) -> OptimizationResult:
+    def result(self) -> OptimizationResult:
         """Sum up the search."""
         effort = self._objective.effort - self._started_at
         return OptimizationResult(
@@ -129,7 +132,7 @@ class Progress:
             self.errors,
             np.array(self._history),
             effort.evaluations,
-            "stopped by the callback" if self.stopped else reason,
+            "stopped by the callback" if self.stopped else self.reason,
             effort,
         )
 
