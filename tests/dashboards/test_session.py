@@ -19,6 +19,7 @@ from workbench.dashboards.session import (
 )
 from workbench.errors import DataError, WorkbenchError
 from workbench.mocap.motion import Motion
+from workbench.optimization import VISUALIZATION_OPTIMIZER
 from workbench.projection import projectors
 from workbench.registry import Registry
 from workbench.schemes import SpatialScheme
@@ -42,7 +43,7 @@ def test_a_panel_shows_what_the_scheme_gives(table: VectorSpace, optimized: bool
     """Embedding, error and quality are those of the same scheme run by hand."""
     run = Run(Source("table", space=table, token=1), Panel("mds", optimized), 0.1, 7)
     result = Session().run(run, projectors, report=quiet)
-    scheme = SpatialScheme("mds", optimizer="alg12" if optimized else None)
+    scheme = SpatialScheme("mds", optimizer=VISUALIZATION_OPTIMIZER if optimized else None)
     expected = scheme.run(table, ratio=0.1, random_state=7)
     np.testing.assert_array_equal(result.embedding, expected.embedding)
     np.testing.assert_array_equal(result.control_points, expected.control_points)

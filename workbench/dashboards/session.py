@@ -219,6 +219,7 @@ class Session:
         report : callable
             Gets the progress.
         """
+        from workbench.optimization import VISUALIZATION_OPTIMIZER
         from workbench.quality.neighborhoods import neighborhood_quality
         from workbench.schemes import SpatialScheme
 
@@ -228,12 +229,14 @@ class Session:
         report("projecting", 0.2)
         projected, notes = self._project(run, projectors, space)
 
-        def follow(sweep: int, error: float, embedding: NDArray[np.float64]) -> None:  # noqa: ARG001 - the optimizer's signature
-            report(f"optimizing, sweep {sweep}", 0.5 + 0.4 * min(1.0, sweep / 200))
+        def follow(iteration: int, error: float, embedding: NDArray[np.float64]) -> None:  # noqa: ARG001 - the optimizer's signature
+            # How many are to come is not known; most samples rest within twenty.
+            report(f"optimizing, iteration {iteration}", 0.9 - 0.4 * 0.9**iteration)
 
         report("back-projecting", 0.5)
         scheme = SpatialScheme(
-            run.panel.projector, optimizer="alg12" if run.panel.optimized else None
+            run.panel.projector,
+            optimizer=VISUALIZATION_OPTIMIZER if run.panel.optimized else None,
         )
         with _said_by_warnings() as said:
             result = scheme.run(
@@ -247,7 +250,7 @@ class Session:
         curve = neighborhood_quality(distances, result.embedding, curve_sizes(len(space)))
         ended = result.optimization
         if ended is not None:
-            said.append(f"optimized in {ended.iterations} sweeps: {ended.reason}")
+            said.append(f"optimized in {ended.iterations} iterations: {ended.reason}")
         return PanelResult(
             embedding=result.embedding,
             control_points=result.control_points,
