@@ -303,7 +303,7 @@ def test_a_failing_notebook_fails_the_command(run, tmp_path, monkeypatch):
     kernel = {"kernelspec": {"name": "python3", "display_name": "Python 3", "language": "python"}}
     notebook = nbformat.v4.new_notebook(cells=[cell], metadata=kernel)
     nbformat.write(notebook, notebooks / "costa2018_table_5_1.ipynb")
-    monkeypatch.setattr("workbench.experiments.reproduce.bundled", lambda _: notebooks)
+    monkeypatch.setattr("workbench.reproduction.reproduce.bundled", lambda _: notebooks)
     out_folder = tmp_path / "report"
     status, out, err = run("reproduce", "costa2018:tab5.1", "--json", "--out", out_folder)
     assert status == 2

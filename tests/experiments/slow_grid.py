@@ -13,7 +13,7 @@ from pathlib import Path
 import pandas as pd
 
 from workbench.experiments.grid import run_grid
-from workbench.experiments.runs import Run
+from workbench.experiments.runs.schemes import SchemeRun
 from workbench.projection import register_projector
 from workbench.projection.pca import PCA
 from workbench.schemes import SpatialScheme
@@ -21,7 +21,8 @@ from workbench.schemes import SpatialScheme
 #: Seeds tell the runs apart.
 SEEDS = range(5)
 RUNS = [
-    Run("uci/iris", SpatialScheme("logged", selector="random"), ratio=0.05, seed=s) for s in SEEDS
+    SchemeRun("uci/iris", SpatialScheme("logged", selector="random"), ratio=0.05, seed=s)
+    for s in SEEDS
 ]
 
 

@@ -21,7 +21,7 @@ from workbench.datasets import load_space
 from workbench.errors import WorkbenchError
 from workbench.experiments import grid
 from workbench.experiments.grid import Advance, describe_failures, run_grid
-from workbench.experiments.runs import Run
+from workbench.experiments.runs.schemes import SchemeRun
 from workbench.experiments.store import ResultStore
 from workbench.optimization import optimizers
 from workbench.optimization.local_search import LocalSearch
@@ -31,7 +31,7 @@ from workbench.schemes import SpatialScheme, TemporalScheme
 
 RAW = SpatialScheme("pca", selector="random")
 OPTIMIZED = SpatialScheme("pca", selector="random", optimizer="alg12")
-PAIR = [Run("uci/iris", RAW, ratio=0.05), Run("uci/iris", OPTIMIZED, ratio=0.05)]
+PAIR = [SchemeRun("uci/iris", RAW, ratio=0.05), SchemeRun("uci/iris", OPTIMIZED, ratio=0.05)]
 TIMES = ("seconds_", "version_")
 
 
@@ -75,7 +75,7 @@ def test_a_perfect_embedding_has_no_stress_ratio(tmp_path: Path, columns: int):
     file = tmp_path / "plane.csv"
     frame = pd.DataFrame(plane[:, :columns], columns=list("xyz")[:columns])
     frame.to_csv(file, index=False)
-    runs = [Run(str(file), scheme, ratio=0.1) for scheme in (RAW, OPTIMIZED)]
+    runs = [SchemeRun(str(file), scheme, ratio=0.1) for scheme in (RAW, OPTIMIZED)]
     table = run_grid(runs, tmp_path / "results")
     assert table["message"].tolist() == ["", ""]
     assert table["projected_scale_normalized_stress"].max() < 1e-14
@@ -100,7 +100,7 @@ def test_raw_and_optimized_share_one_projection(tmp_path: Path, counted: list[in
         SpatialScheme("counted", selector="random", optimizer=optimizer)
         for optimizer in (None, "alg12")
     ]
-    table = run_grid([Run("uci/iris", scheme, ratio=0.05) for scheme in schemes], tmp_path)
+    table = run_grid([SchemeRun("uci/iris", scheme, ratio=0.05) for scheme in schemes], tmp_path)
     assert table["status"].tolist() == ["done", "done"]
     assert counted == [150]
 
@@ -119,7 +119,7 @@ KINDS = {
 def test_every_kind_of_scheme_is_stored_as_run_by_hand(tmp_path: Path, count: int):
     """Runs side by side share nothing that is not theirs, and are found again afterwards."""
     schemes = [SpatialScheme("pca", selector="random", **kind) for kind in KINDS.values()]
-    runs = [Run("uci/iris", scheme, count=count) for scheme in schemes]
+    runs = [SchemeRun("uci/iris", scheme, count=count) for scheme in schemes]
     table = run_grid(runs, tmp_path)
     for scheme, (_, row) in zip(schemes, table.iterrows(), strict=True):
         result = scheme.run(load_space("uci/iris"), count=count, random_state=0)
@@ -143,7 +143,7 @@ def test_only_one_step_projections_are_shared(tmp_path: Path, counted: list[int]
         for kind in ({}, {"dimensions": 3}, {"two_step": "rbfp"})
         for optimizer in (None, "local")
     ]
-    table = run_grid([Run("uci/iris", scheme, ratio=0.05) for scheme in schemes], tmp_path)
+    table = run_grid([SchemeRun("uci/iris", scheme, ratio=0.05) for scheme in schemes], tmp_path)
     assert table["message"].tolist() == [""] * 6
     assert counted[:2] == [150, 150]
     assert len(counted) == 4
@@ -153,7 +153,7 @@ def test_only_one_step_projections_are_shared(tmp_path: Path, counted: list[int]
 def test_a_row_counts_the_effort_of_all_searches(tmp_path: Path):
     """Derivatives and distances of the optimizer and of the search for markers, added up."""
     scheme = SpatialScheme("pca", selector="random", optimizer="local", markers="move")
-    row = run_grid([PAIR[0], Run("uci/iris", scheme, ratio=0.05)], tmp_path)
+    row = run_grid([PAIR[0], SchemeRun("uci/iris", scheme, ratio=0.05)], tmp_path)
     result = scheme.run(load_space("uci/iris"), ratio=0.05, random_state=0)
     effort = result.optimization.effort + result.marker_result.effort
     assert row["jacobians"].tolist() == [0, effort.jacobians]
@@ -170,7 +170,7 @@ def test_the_effort_of_a_reticent_optimizer_is_unknown(tmp_path: Path, monkeypat
 
     monkeypatch.setitem(optimizers._entries, "reticent", Reticent)
     scheme = SpatialScheme("pca", selector="random", optimizer="reticent")
-    row = run_grid([Run("uci/iris", scheme, ratio=0.05)], tmp_path).iloc[0]
+    row = run_grid([SchemeRun("uci/iris", scheme, ratio=0.05)], tmp_path).iloc[0]
     assert row["status"] == "done"
     assert row["jacobians"] is None
     assert row["distances"] is None
@@ -178,7 +178,7 @@ def test_the_effort_of_a_reticent_optimizer_is_unknown(tmp_path: Path, monkeypat
 
 def test_finished_runs_are_not_computed_again(tmp_path: Path, counted: list[int]):
     """A second call reads everything and gives the same table to the last bit."""
-    runs = [Run("uci/iris", SpatialScheme("counted", selector="random"), ratio=0.05)]
+    runs = [SchemeRun("uci/iris", SpatialScheme("counted", selector="random"), ratio=0.05)]
     first = run_grid(runs, tmp_path)
     pd.testing.assert_frame_equal(run_grid(runs, tmp_path), first)
     assert counted == [150]
@@ -187,7 +187,7 @@ def test_finished_runs_are_not_computed_again(tmp_path: Path, counted: list[int]
 def test_a_damaged_result_is_computed_again(tmp_path: Path, counted: list[int]):
     """Damage to one file costs one run, and leaves the same values."""
     runs = [
-        Run("uci/iris", SpatialScheme("counted", selector="random"), ratio=0.05, seed=seed)
+        SchemeRun("uci/iris", SpatialScheme("counted", selector="random"), ratio=0.05, seed=seed)
         for seed in range(3)
     ]
     first = run_grid(runs, tmp_path)
@@ -201,7 +201,11 @@ def test_a_damaged_result_is_computed_again(tmp_path: Path, counted: list[int]):
 
 def test_runs_in_processes_give_the_same_values(tmp_path: Path):
     """Two worker processes give what this process gives, in the order asked for."""
-    runs = [*PAIR, Run("uci/wine", RAW, ratio=0.05), Run("cmu/01_03-walk", OPTIMIZED, count=9)]
+    runs = [
+        *PAIR,
+        SchemeRun("uci/wine", RAW, ratio=0.05),
+        SchemeRun("cmu/01_03-walk", OPTIMIZED, count=9),
+    ]
     here = run_grid(runs, tmp_path / "here")
     there = run_grid(runs, tmp_path / "there", n_jobs=2)
     assert there["dataset"].tolist() == [run.dataset for run in runs]
@@ -211,9 +215,9 @@ def test_runs_in_processes_give_the_same_values(tmp_path: Path):
 def test_a_failing_run_is_named_and_leaves_the_others(tmp_path: Path):
     """A table has no time and a name no data; the run between them finishes."""
     runs = [
-        Run("uci/iris", TemporalScheme("slerp"), ratio=0.05),
+        SchemeRun("uci/iris", TemporalScheme("slerp"), ratio=0.05),
         PAIR[0],
-        Run("no/data", RAW, count=3),
+        SchemeRun("no/data", RAW, count=3),
     ]
     table = run_grid(runs, tmp_path)
     assert table["status"].tolist() == ["failed", "done", "failed"]
@@ -235,10 +239,10 @@ def test_a_worker_that_dies_costs_its_own_runs_only(tmp_path: Path, monkeypatch)
 
     runs = [
         *PAIR,
-        Run("uci/wine", RAW, ratio=0.05),
-        Run("uci/wine", OPTIMIZED, ratio=0.05),
-        Run("cmu/01_03-walk", RAW, count=9),
-        Run("uci/iris", RAW, ratio=0.05, standardize=True),
+        SchemeRun("uci/wine", RAW, ratio=0.05),
+        SchemeRun("uci/wine", OPTIMIZED, ratio=0.05),
+        SchemeRun("cmu/01_03-walk", RAW, count=9),
+        SchemeRun("uci/iris", RAW, ratio=0.05, standardize=True),
     ]
     with monkeypatch.context() as patch:
         patch.setattr(grid, "_execute_whole_group", dies_on_wine)
@@ -252,7 +256,8 @@ def test_a_worker_that_dies_costs_its_own_runs_only(tmp_path: Path, monkeypatch)
 def test_warnings_are_kept_with_the_result(tmp_path: Path):
     """What the methods warn of is in the rows of all runs that share the projection."""
     runs = [
-        Run("uci/iris", SpatialScheme("isomap", optimizer=o), ratio=0.05) for o in (None, "alg12")
+        SchemeRun("uci/iris", SpatialScheme("isomap", optimizer=o), ratio=0.05)
+        for o in (None, "alg12")
     ]
     with warnings.catch_warnings(record=True) as printed:
         table = run_grid(runs, tmp_path)
@@ -276,7 +281,7 @@ def test_progress_counts_up_to_all_runs(tmp_path: Path):
     """Progress starts with what is found and ends with all runs and all the work."""
     run_grid(PAIR[:1], tmp_path)
     seen: list[Advance] = []
-    run_grid([*PAIR, Run("uci/wine", RAW, ratio=0.05)], tmp_path, progress=seen.append)
+    run_grid([*PAIR, SchemeRun("uci/wine", RAW, ratio=0.05)], tmp_path, progress=seen.append)
     assert (seen[0].finished, seen[0].total, seen[0].share) == (1, 3, 0.0)
     assert [advance.finished for advance in seen] == [1, 2, 3]
     assert seen[-1].share == pytest.approx(1.0)

@@ -12,14 +12,15 @@ import pytest
 from sklearn.decomposition import PCA
 
 from workbench.errors import WorkbenchError
-from workbench.experiments import runs
-from workbench.experiments.runs import Run, content_key, space_checksum
+from workbench.experiments.runs import base
+from workbench.experiments.runs.base import content_key, space_checksum
+from workbench.experiments.runs.schemes import SchemeRun
 from workbench.experiments.versions import code_digest, digest_of_code, versions
 from workbench.mocap.motion import Motion
 from workbench.schemes import SpatialScheme, TemporalScheme
 from workbench.spaces import PoseSpace, VectorSpace
 
-RUN = Run("uci/iris", SpatialScheme("pca", selector="random"), ratio=0.03)
+RUN = SchemeRun("uci/iris", SpatialScheme("pca", selector="random"), ratio=0.03)
 
 CHANGES = {
     "dataset": {"dataset": "uci/wine"},
@@ -47,23 +48,26 @@ def test_key_changes_with_the_data_the_code_and_the_versions(monkeypatch):
     key = content_key(RUN, "data")
     assert content_key(RUN, "other data") != key
     with monkeypatch.context() as patch:
-        patch.setattr(runs, "code_digest", lambda: "other code")
+        patch.setattr(base, "code_digest", lambda: "other code")
         assert content_key(RUN, "data") != key
     for package in ("workbench", "numpy", "scikit-learn", "umap-learn"):
         with monkeypatch.context() as patch:
-            patch.setattr(runs, "versions", lambda package=package: {**versions(), package: "0"})
+            patch.setattr(base, "versions", lambda package=package: {**versions(), package: "0"})
             assert content_key(RUN, "data") != key
     assert content_key(RUN, "data") == key
 
 
 def test_key_is_the_same_in_every_process(monkeypatch):
     """The key is the known SHA-256 of known content, not something of this process."""
-    monkeypatch.setattr(runs, "versions", lambda: {"numpy": "2.4"})
-    monkeypatch.setattr(runs, "code_digest", lambda: "def")
+    monkeypatch.setattr(base, "versions", lambda: {"numpy": "2.4"})
+    monkeypatch.setattr(base, "code_digest", lambda: "def")
+    monkeypatch.setattr(base, "_digest_of_kind", lambda module: "ghi")
     text = (
-        '{"code":"def","data":"abc","run":{"back_projector":null,"count":null,'
-        '"dataset":"uci/iris","dimensions":null,"kind":"spatial","markers":null,"optimizer":null,"projector":"pca","ratio":0.03,'
-        '"seed":0,"selector":"random","standardize":false,"two_step":null},"versions":{"numpy":"2.4"}}'
+        '{"code":["def","ghi"],"data":"abc","kind":"workbench.experiments.runs.schemes.SchemeRun",'
+        '"run":{"back_projector":null,"count":null,"dataset":"uci/iris","dimensions":null,'
+        '"kind":"spatial","markers":null,"optimizer":null,"projector":"pca","ratio":0.03,'
+        '"scheme":"pca, random","seed":0,"selector":"random","standardize":false,'
+        '"two_step":null},"versions":{"numpy":"2.4"}}'
     )
     assert content_key(RUN, "abc") == hashlib.sha256(text.encode()).hexdigest()
 
@@ -74,8 +78,9 @@ def test_key_is_the_same_in_every_process(monkeypatch):
         ("kernels.py", True),
         ("projection/pca.py", True),
         ("optimization/objective.py", True),
-        ("experiments/execution.py", True),
-        ("experiments/report.py", False),
+        ("experiments/runs/shared.py", True),
+        ("experiments/grid.py", False),
+        ("reproduction/report.py", False),
         ("figures/style.py", False),
         ("cli/new.py", False),
         ("compact/file.py", False),
@@ -84,7 +89,7 @@ def test_key_is_the_same_in_every_process(monkeypatch):
 def test_digest_notices_code_that_computes(tmp_path: Path, module: str, decides: bool):
     """A changed line of a projector changes the digest; one of the report does not."""
     package = tmp_path / "workbench"
-    source = Path(runs.__file__).parents[1]
+    source = Path(base.__file__).parents[2]
     shutil.copytree(source, package, ignore=shutil.ignore_patterns("__pycache__"))
     before = digest_of_code(package)
     assert before == code_digest()
@@ -112,17 +117,17 @@ def test_checksum_of_a_motion_depends_on_its_skeleton(waving: Motion):
 def test_methods_must_be_names():
     """An object cannot be stored with a result; the message says what to do."""
     with pytest.raises(WorkbenchError, match="projector of a run: got PCA, want a registered name"):
-        Run("uci/iris", SpatialScheme(PCA()), ratio=0.03)
+        SchemeRun("uci/iris", SpatialScheme(PCA()), ratio=0.03)
 
 
 @pytest.mark.parametrize("amount", [{}, {"ratio": 0.1, "count": 3}], ids=["neither", "both"])
 def test_exactly_one_of_ratio_and_count(amount):
     """A run without a number of control points, or with two, is refused."""
     with pytest.raises(WorkbenchError, match="exactly one"):
-        Run("uci/iris", SpatialScheme("pca"), **amount)
+        SchemeRun("uci/iris", SpatialScheme("pca"), **amount)
 
 
 def test_a_run_reads_as_a_sentence():
     """Messages name a run so that it can be recognised."""
-    run = Run("cmu/05_10", TemporalScheme("slerp", selector="uniform"), count=24, seed=3)
+    run = SchemeRun("cmu/05_10", TemporalScheme("slerp", selector="uniform"), count=24, seed=3)
     assert str(run) == "cmu/05_10, slerp, uniform, 24 control points, seed 3"

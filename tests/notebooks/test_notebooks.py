@@ -10,9 +10,9 @@ import papermill
 import pytest
 
 from tests.check_notebooks import problems
-from workbench.experiments.items import EXTRAS, ITEMS
-from workbench.experiments.notebooks import this_interpreter
-from workbench.experiments.outputs import read_parts
+from workbench.reproduction.items import EXTRAS, ITEMS
+from workbench.reproduction.notebooks import this_interpreter
+from workbench.reproduction.outputs import read_parts
 from workbench.resources import bundled
 
 NAMES = sorted({item.notebook for item in ITEMS})

@@ -13,10 +13,10 @@ import pytest
 
 from tests.browser.chromium import open_browser
 from tests.notebooks.screenshot_report import open_report
-from workbench.experiments.items import Item
-from workbench.experiments.outputs import Outputs
-from workbench.experiments.report import write_report
 from workbench.files import write_atomically
+from workbench.reproduction.items import Item
+from workbench.reproduction.outputs import Outputs
+from workbench.reproduction.report import write_report
 
 pytestmark = pytest.mark.browser
 

@@ -12,7 +12,7 @@ from workbench.cli.options import Json, Seed, report
 from workbench.errors import WorkbenchError
 
 if TYPE_CHECKING:
-    from workbench.experiments.items import Item
+    from workbench.reproduction.items import Item
 
 
 class Profile(StrEnum):
@@ -41,8 +41,8 @@ def reproduce(
     json: Json = False,
 ) -> None:
     """Regenerate figures and tables of the theses and compare them with the published ones."""
-    from workbench.experiments.items import select_items
-    from workbench.experiments.reproduce import reproduce as run
+    from workbench.reproduction.items import select_items
+    from workbench.reproduction.reproduce import reproduce as run
 
     items = select_items(ids)
     if list_:
@@ -64,7 +64,7 @@ def reproduce(
 
 
 def _describe(items: list[Item], out: Path) -> list[dict[str, str]]:
-    from workbench.experiments.items import item_state
+    from workbench.reproduction.items import item_state
 
     return [
         {"id": item.id, "notebook": item.notebook, "state": item_state(item, out)} for item in items

@@ -1,5 +1,5 @@
-"""Experiments: grids of runs, published values, and the reproduction of figures and tables.
+"""Experiments: grids of runs, executed in parallel and stored, never the same run twice.
 
-Import from the modules: :mod:`~workbench.experiments.grid` runs many schemes on many data
-sets, :mod:`~workbench.experiments.reproduce` remakes the figures and tables of the theses.
+Import from the modules: :mod:`~workbench.experiments.grid` executes runs, and
+:mod:`~workbench.experiments.runs` holds what can be run.
 """

@@ -11,9 +11,10 @@ from pathlib import Path
 import pandas as pd
 
 from workbench.errors import WorkbenchError
-from workbench.experiments.execution import SharedSteps, execute
-from workbench.experiments.runs import Run, content_key, scheme_name, space_checksum
-from workbench.experiments.store import ResultStore, Row
+from workbench.experiments.runs.base import Run, content_key, space_checksum
+from workbench.experiments.runs.shared import SharedSteps
+from workbench.experiments.store import Arrays, ResultStore, Row
+from workbench.experiments.versions import versions
 
 
 @dataclass(frozen=True)
@@ -79,7 +80,7 @@ def run_grid(
     Parameters
     ----------
     runs : iterable of Run
-        What to run; repetitions are dropped.
+        What to run, of one kind or several; repetitions are dropped.
     folder : path-like
         Where results are kept. All results in it are also gathered in ``runs.parquet``.
     n_jobs : int
@@ -92,7 +93,7 @@ def run_grid(
     -------
     DataFrame
         One row for each run, in the order given: its values as
-        :func:`workbench.experiments.execution.execute` lists them, ``key``, ``status``
+        its ``execute`` lists them, ``key``, ``status``
         ("done" or "failed") and ``message`` (why it failed). A run that fails does not
         keep the others from running, and is tried again next time.
 
@@ -263,12 +264,18 @@ def _execute_group(group: Sequence[_Keyed], folder: Path) -> Iterator[dict[Run, 
                 if shared is None:
                     space = load_space(run.dataset, standardize=run.standardize)
                     shared = SharedSteps(space)
-                row, arrays = execute(run, shared)
+                row, arrays = _execute(run, shared)
                 store.write(key, row, arrays)
             except Exception as error:  # whatever a method raises must not stop the others
                 yield {run: _failed(run, key, f"{type(error).__name__}: {error}")}
                 continue
         yield {run: _done(key, row)}
+
+
+def _execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
+    values, arrays = run.execute(shared)
+    made_with = {f"version_{name}": value for name, value in versions().items()}
+    return {**run.specification(), **values, **made_with}, arrays
 
 
 def _done(key: str, row: Row) -> Row:
@@ -281,7 +288,6 @@ def _failed(run: Run, key: str, message: str) -> Row:
         "status": "failed",
         "message": f"{run}: {message}",
         **run.specification(),
-        "scheme": scheme_name(run.scheme),
     }
 
 

@@ -23,11 +23,13 @@ _NOT_NUMERICAL = (
     "errors.py",
     "experiments",
     "figures",
+    "reproduction",
     "resources.py",
     "widgets",
 )
-#: The module of experiments that does decide results.
-_EXECUTION = "experiments/execution.py"
+#: The module of experiments that decides results of every kind of run. That of one kind alone
+#: is counted with its runs.
+_SHARED_STEPS = "experiments/runs/shared.py"
 
 
 @cache
@@ -62,7 +64,7 @@ def digest_of_code(package: Path) -> str:
     digest = hashlib.sha256()
     for path in sorted(package.rglob("*.py")):
         name = path.relative_to(package).as_posix()
-        if name.split("/")[0] not in _NOT_NUMERICAL or name == _EXECUTION:
+        if name.split("/")[0] not in _NOT_NUMERICAL or name == _SHARED_STEPS:
             digest.update(name.encode() + b"\0")
             digest.update(hashlib.sha256(path.read_bytes()).digest())
     return digest.hexdigest()

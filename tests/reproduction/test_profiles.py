@@ -8,8 +8,8 @@ import pytest
 
 from workbench.datasets import Status, list_datasets, load
 from workbench.errors import DataError, WorkbenchError
-from workbench.experiments import profiles
-from workbench.experiments.profiles import absent_tables, fetch_tables, motion_clips
+from workbench.reproduction import profiles
+from workbench.reproduction.profiles import absent_tables, fetch_tables, motion_clips
 
 PAGE_BLOCKS = "uci/page-blocks"
 

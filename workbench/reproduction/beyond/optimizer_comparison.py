@@ -1,4 +1,4 @@
-"""Optimizers compared, from the results of :mod:`workbench.experiments.optimizer_runs`."""
+"""Optimizers compared, from the results of :mod:`workbench.reproduction.beyond.optimizer_runs`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from workbench.experiments.optimizer_runs import (
+from workbench.reproduction.beyond.optimizer_runs import (
     BASELINE,
     BEFORE_MARKERS,
     MARKER_SEARCHES,
@@ -15,7 +15,7 @@ from workbench.experiments.optimizer_runs import (
     PROJECTORS,
     scheme_of,
 )
-from workbench.experiments.runs import scheme_name
+from workbench.experiments.runs.schemes import scheme_name
 from workbench.experiments.statistics import boxplot_statistics
 from workbench.figures.boxplots import Box
 

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 
 from workbench.errors import WorkbenchError
-from workbench.experiments import keyframe_errors
+from workbench.reproduction.costa2018 import keyframe_errors
 from workbench.experiments.grid import run_grid
-from workbench.experiments.optimizer_comparison import (
+from workbench.reproduction.beyond.optimizer_comparison import (
     compare_markers,
     compare_optimizers,
     higher_runs,
@@ -18,7 +18,7 @@ from workbench.experiments.optimizer_comparison import (
     optimizer_table,
     ratio_boxes,
 )
-from workbench.experiments.optimizer_runs import (
+from workbench.reproduction.beyond.optimizer_runs import (
     MARKER_SEARCHES,
     PROJECTORS,
     marker_clips,
@@ -27,7 +27,7 @@ from workbench.experiments.optimizer_runs import (
     optimizer_runs,
     scheme_of,
 )
-from workbench.experiments.runs import scheme_name
+from workbench.experiments.runs.schemes import scheme_name
 
 
 def _row(clip: str, optimizer: str | None, error: float, markers=None, **values) -> dict:

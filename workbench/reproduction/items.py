@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from workbench.errors import WorkbenchError
-from workbench.experiments.outputs import NOT_MADE, read_error, read_parts
+from workbench.reproduction.outputs import NOT_MADE, read_error, read_parts
 
 TABLE_5_1 = "costa2018_table_5_1"
 FIGURES_5_12_TO_5_17 = "costa2018_figures_5_12_to_5_17"

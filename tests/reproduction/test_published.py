@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from workbench.errors import WorkbenchError
-from workbench.experiments.items import ITEMS, select_items
-from workbench.experiments.published import published, published_ids
+from workbench.reproduction.items import ITEMS, select_items
+from workbench.reproduction.published import published, published_ids
 
 
 def test_table_5_1_is_whole():

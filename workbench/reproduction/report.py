@@ -8,8 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from workbench.experiments.items import Item, item_state
-from workbench.experiments.outputs import (
+from workbench.reproduction.items import Item, item_state
+from workbench.reproduction.outputs import (
     FIGURE,
     NOT_MADE,
     TABLE,
@@ -20,7 +20,7 @@ from workbench.experiments.outputs import (
     slug,
 )
 from workbench.experiments.progress import duration
-from workbench.experiments.published import published, published_ids
+from workbench.reproduction.published import published, published_ids
 from workbench.experiments.versions import versions
 from workbench.files import write_atomically
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from workbench.errors import WorkbenchError
-from workbench.experiments.keyframe_errors import RATIO
-from workbench.experiments.runs import Run
+from workbench.reproduction.costa2018.keyframe_errors import RATIO
+from workbench.experiments.runs.schemes import SchemeRun
 from workbench.schemes import SpatialScheme
 
 #: What all others are compared with.
@@ -33,7 +33,7 @@ def scheme_of(projector: str, optimizer: str | None, markers: str | None = None)
 
 def optimizer_runs(
     clips: Iterable[str], *, seed: int = 0, projectors: Iterable[str] | None = None
-) -> list[Run]:
+) -> list[SchemeRun]:
     """List the runs of the comparison: no optimizer, Alg. 12 and ours.
 
     Parameters
@@ -47,7 +47,7 @@ def optimizer_runs(
 
     Returns
     -------
-    list of Run
+    list of SchemeRun
 
     Raises
     ------
@@ -56,7 +56,7 @@ def optimizer_runs(
     """
     names = _projectors(projectors)
     return [
-        Run(clip, scheme_of(PROJECTORS[name], optimizer), ratio=RATIO, seed=seed)
+        SchemeRun(clip, scheme_of(PROJECTORS[name], optimizer), ratio=RATIO, seed=seed)
         for clip in clips
         for name in names
         for optimizer in (None, BASELINE, *OURS)
@@ -65,7 +65,7 @@ def optimizer_runs(
 
 def marker_runs(
     clips: Iterable[str], *, seed: int = 0, projectors: Iterable[str] | None = None
-) -> list[Run]:
+) -> list[SchemeRun]:
     """List the runs in which markers move, or are exchanged, after the global optimizer.
 
     Parameters and errors are those of :func:`optimizer_runs`, whose runs on the same clips
@@ -73,7 +73,7 @@ def marker_runs(
     """
     names = _projectors(projectors)
     return [
-        Run(clip, scheme_of(PROJECTORS[name], BEFORE_MARKERS, search), ratio=RATIO, seed=seed)
+        SchemeRun(clip, scheme_of(PROJECTORS[name], BEFORE_MARKERS, search), ratio=RATIO, seed=seed)
         for clip in clips
         for name in names
         for search in MARKER_SEARCHES

@@ -9,8 +9,8 @@ from typing import Any
 import pandas as pd
 
 from workbench.experiments.grid import describe_failures
-from workbench.experiments.published import published, published_ids
-from workbench.experiments.runs import Run, Scheme, scheme_name
+from workbench.reproduction.published import published, published_ids
+from workbench.experiments.runs.schemes import SchemeRun, Scheme, scheme_name
 from workbench.experiments.store import ResultStore
 from workbench.figures.embeddings import Panel
 from workbench.schemes import SpatialScheme
@@ -87,7 +87,7 @@ ONE_STEP = (
 )
 
 
-def uci_runs(figures: Iterable[UciFigure], *, seed: int = 0) -> list[Run]:
+def uci_runs(figures: Iterable[UciFigure], *, seed: int = 0) -> list[SchemeRun]:
     """List the runs of figures: raw and optimized, on data as they are and standardised.
 
     Parameters
@@ -99,10 +99,10 @@ def uci_runs(figures: Iterable[UciFigure], *, seed: int = 0) -> list[Run]:
 
     Returns
     -------
-    list of Run
+    list of SchemeRun
     """
     return [
-        Run(figure.dataset, scheme, ratio=RATIO, seed=seed, standardize=standardize)
+        SchemeRun(figure.dataset, scheme, ratio=RATIO, seed=seed, standardize=standardize)
         for figure in figures
         for standardize in (False, True)
         for scheme in (figure.raw, figure.optimized)

@@ -18,19 +18,19 @@ from nbformat.v4 import new_code_cell, new_notebook
 
 from tests.browser.chromium import chromium_path
 from workbench.errors import WorkbenchError
-from workbench.experiments import images
-from workbench.experiments.images import write_pngs
-from workbench.experiments.items import ITEMS, Item, item_state
-from workbench.experiments.notebooks import this_interpreter
-from workbench.experiments.report import format_cell, write_report
-from workbench.experiments.reproduce import ReproductionReport, reproduce, reproduce_items
+from workbench.reproduction import images
+from workbench.reproduction.images import write_pngs
+from workbench.reproduction.items import ITEMS, Item, item_state
+from workbench.reproduction.notebooks import this_interpreter
+from workbench.reproduction.report import format_cell, write_report
+from workbench.reproduction.reproduce import ReproductionReport, reproduce, reproduce_items
 
 PARAMETERS = "profile = None\nseed = None\njobs = None\nout = None\nresults = None"
 GOOD = """
 import sys
 import pandas as pd
 import plotly.graph_objects as go
-from workbench.experiments.outputs import Outputs
+from workbench.reproduction.outputs import Outputs
 
 outputs = Outputs(out, profile=profile, seed=seed)
 print("drawing", profile, seed, file=sys.stderr)

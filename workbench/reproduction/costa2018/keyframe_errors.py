@@ -9,8 +9,8 @@ import pandas as pd
 
 from workbench.errors import WorkbenchError
 from workbench.experiments.grid import describe_failures
-from workbench.experiments.published import published
-from workbench.experiments.runs import Run, Scheme, scheme_name
+from workbench.reproduction.published import published
+from workbench.experiments.runs.schemes import SchemeRun, Scheme, scheme_name
 from workbench.experiments.statistics import boxplot_statistics
 from workbench.figures.boxplots import Box
 from workbench.schemes import SpatialScheme, TemporalScheme
@@ -83,7 +83,7 @@ def schemes_of(profile: str) -> list[str]:
 
 def table_5_1_runs(
     clips: Iterable[str], *, seed: int = 0, schemes: Iterable[str] | None = None
-) -> list[Run]:
+) -> list[SchemeRun]:
     """List the runs of Table 5.1 and Figure 5.3, and those of the schemes before optimization.
 
     Parameters
@@ -97,7 +97,7 @@ def table_5_1_runs(
 
     Returns
     -------
-    list of Run
+    list of SchemeRun
 
     Raises
     ------
@@ -112,7 +112,7 @@ def table_5_1_runs(
     every = [
         family[name] for name in names for family in (TEMPORAL, RAW, OPTIMIZED) if name in family
     ]
-    return [Run(clip, scheme, ratio=RATIO, seed=seed) for clip in clips for scheme in every]
+    return [SchemeRun(clip, scheme, ratio=RATIO, seed=seed) for clip in clips for scheme in every]
 
 
 def errors_by_scheme(table: pd.DataFrame, schemes: dict[str, Scheme]) -> dict[str, pd.Series]:

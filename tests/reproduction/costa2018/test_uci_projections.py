@@ -8,7 +8,7 @@ import pytest
 
 from workbench.experiments.grid import run_grid
 from workbench.experiments.store import ResultStore
-from workbench.experiments.uci_projections import (
+from workbench.reproduction.costa2018.uci_projections import (
     UCI_FIGURES,
     uci_caption,
     uci_panels,

@@ -35,7 +35,7 @@ def write_pngs(figures: Sequence[Path], *, seconds: float | None = None) -> str:
         return ""
     limit = START_SECONDS + FIGURE_SECONDS * len(figures) if seconds is None else seconds
     process = subprocess.Popen(  # noqa: S603 - this interpreter on our own files
-        [sys.executable, "-m", "workbench.experiments.images", *map(str, figures)],
+        [sys.executable, "-m", "workbench.reproduction.images", *map(str, figures)],
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,

@@ -1,0 +1,1 @@
+"""Experiments beyond the theses: our optimizers, and questions that they left open."""

@@ -1,0 +1,1 @@
+"""Experiments of Halit 2010, keyframes by motion saliency."""
