@@ -1,7 +1,8 @@
 """What notebooks leave in the output folder: figures, tables and how each run ended.
 
-OUT/figures/NAME.html, .json, .png    OUT/tables/NAME.csv
+OUT/figures/NAME.html, .json, .png    OUT/tables/NAME.csv, .md, .tex
 OUT/parts/NAME.json                   what it is, its caption, which item it belongs to
+OUT/claims/ID.json                    evidence for or against a claim
 OUT/notebooks/NOTEBOOK.ipynb, .outcome.json
 """
 
@@ -10,10 +11,14 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from workbench.experiments.bootstrap import Estimate
 from workbench.files import write_atomically
+from workbench.reproduction.claims import Evidence, claim_by_id
+from workbench.reproduction.tables import as_latex, as_markdown
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -44,7 +49,9 @@ class Outputs:
         self.folder = None if out is None else Path(out)
         self._made_with = {"profile": profile, "seed": seed}
 
-    def figure(self, item: str, figure: go.Figure, *, caption: str, alt: str) -> None:
+    def figure(
+        self, item: str, figure: go.Figure, *, caption: str, alt: str, name: str = ""
+    ) -> None:
         """Save a figure as HTML and JSON; ``reproduce`` adds the PNG.
 
         Parameters
@@ -57,10 +64,12 @@ class Outputs:
             What it shows, on which data.
         alt : str
             What a reader who does not see it should know.
+        name : str
+            Tells several figures of one item apart.
         """
         if self.folder is None:
             return
-        path = self.folder / "figures" / slug(item)
+        path = self.folder / "figures" / _stem(item, name)
         write_atomically(path.with_name(f"{path.name}.json"), (figure.to_json() or "").encode())
         # plotly.js is written once, beside the figures, so that the folder works offline.
         figure.write_html(
@@ -68,17 +77,17 @@ class Outputs:
             include_plotlyjs="directory",
             config={"responsive": True, "displaylogo": False},
         )
-        self._part(item, slug(item), kind=FIGURE, caption=caption, alt=alt)
+        self._part(item, path.name, kind=FIGURE, caption=caption, alt=alt)
 
     def table(self, item: str, table: pd.DataFrame, *, caption: str, name: str = "") -> None:
-        """Save a table as CSV.
+        """Save a table as CSV, Markdown and LaTeX.
 
         Parameters
         ----------
         item : str
             Id of the item that it belongs to.
         table : DataFrame
-            The table. Two levels of columns are joined by a blank in the CSV.
+            The table. Two levels of columns are joined by a blank, except in the report.
         caption : str
             What it shows, on which data.
         name : str
@@ -86,12 +95,14 @@ class Outputs:
         """
         if self.folder is None:
             return
-        stem = slug(item) + (f"_{name}" if name else "")
+        stem = _stem(item, name)
         flat = table.copy()
         if flat.columns.nlevels > 1:
             flat.columns = [" ".join(str(level) for level in column) for column in flat.columns]
-        content = flat.to_csv(lineterminator="\n")
-        write_atomically(self.folder / "tables" / f"{stem}.csv", content.encode())
+        path = self.folder / "tables" / f"{stem}.csv"
+        write_atomically(path, flat.to_csv(lineterminator="\n").encode())
+        write_atomically(path.with_suffix(".md"), as_markdown(flat, caption).encode())
+        write_atomically(path.with_suffix(".tex"), as_latex(flat, caption, stem).encode())
         self._part(item, stem, kind=TABLE, caption=caption, **_table_content(table))
 
     def values(self, item: str, values: Mapping[str, float]) -> None:
@@ -106,6 +117,28 @@ class Outputs:
         """
         if self.folder is not None:
             self._part(item, slug(item), kind=VALUES, values=dict(values))
+
+    def claim(self, claim: str, evidence: Evidence) -> None:
+        """Save the evidence for or against a claim, for the ledger of claims.
+
+        Parameters
+        ----------
+        claim : str
+            Id of the claim, as in ``claims.toml``.
+        evidence : Evidence
+            The effect with its interval; without one the claim is not decidable.
+
+        Raises
+        ------
+        WorkbenchError
+            If there is no such claim.
+        """
+        claim_by_id(claim)
+        if self.folder is None:
+            return
+        record = {"claim": claim, **self._made_with, **asdict(evidence)}
+        path = self.folder / "claims" / f"{slug(claim)}.json"
+        write_atomically(path, json.dumps(record, indent=1).encode())
 
     def data(self, notebook: str, table: pd.DataFrame) -> None:
         """Record which data the runs of a notebook used, for the report's introduction.
@@ -163,9 +196,24 @@ def slug(item: str) -> str:
     return re.sub(r"[^\w.-]", "_", item)
 
 
+def _stem(item: str, name: str) -> str:
+    return slug(item) + (f"_{name}" if name else "")
+
+
 def read_parts(out: Path) -> list[dict[str, Any]]:
     """Read what the notebooks left in an output folder, in the order of its names."""
     return [_read(path) for path in sorted((out / "parts").glob("*.json"))]
+
+
+def read_evidence(out: Path, claim: str) -> Evidence | None:
+    """Read the evidence that was found about a claim; None if its notebook has not run."""
+    path = out / "claims" / f"{slug(claim)}.json"
+    if not path.is_file():
+        return None
+    record = _read(path)
+    found = record["estimate"]
+    estimate = None if found is None else Estimate(**found)
+    return Evidence(estimate, record["units"], record["note"])
 
 
 def forget(out: Path, notebook: str, items: set[str]) -> None:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from workbench.experiments.progress import duration
+from workbench.experiments.versions import versions
+from workbench.files import write_atomically
 from workbench.reproduction.items import Item, item_state
 from workbench.reproduction.outputs import (
     FIGURE,
@@ -19,10 +21,8 @@ from workbench.reproduction.outputs import (
     read_parts,
     slug,
 )
-from workbench.experiments.progress import duration
 from workbench.reproduction.published import published, published_ids
-from workbench.experiments.versions import versions
-from workbench.files import write_atomically
+from workbench.reproduction.tables import format_cell
 
 _TEMPLATES = Path(__file__).with_name("templates")
 
@@ -163,40 +163,6 @@ def _table(part: dict[str, Any]) -> dict[str, Any]:
         ]
         rows.append({"name": name, "cells": cells})
     return {**part, "groups": groups, "heads": heads, "body": rows}
-
-
-def format_cell(value: Any, *, signed: bool = False) -> str:
-    """Write a value as a reader of a table expects it.
-
-    Parameters
-    ----------
-    value : object
-        A number, a text or None.
-    signed : bool
-        Whether a positive number shows its sign.
-
-    Returns
-    -------
-    str
-        Three decimals for numbers that are not whole, a dash for None, a true minus.
-
-    Examples
-    --------
-    >>> format_cell(0.5), format_cell(-0.0123, signed=True), format_cell(3), format_cell(None)
-    ('0.500', '−0.012', '3', '–')
-    """
-    if value is None:
-        return "\N{EN DASH}"
-    if isinstance(value, bool) or not isinstance(value, (int, float)):
-        return str(value)
-    sign = "+" if signed else ""
-    if isinstance(value, int):
-        text = f"{value:{sign}d}"
-    elif math.isfinite(value) and abs(value) >= 1e5:
-        text = f"{value:{sign}.3g}"
-    else:
-        text = f"{value:{sign}.3f}"
-    return text.replace("-", "\N{MINUS SIGN}")
 
 
 def _data(out: Path, notebooks: Sequence[str]) -> list[dict[str, Any]]:

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from workbench.errors import WorkbenchError
+from workbench.experiments.progress import duration
+from workbench.files import write_atomically
+from workbench.reproduction.costa2018.uci_projections import UCI_FIGURES
 from workbench.reproduction.images import write_pngs
 from workbench.reproduction.items import EXTRAS, ITEMS, Item, item_state, select_items
 from workbench.reproduction.notebooks import run_notebook
 from workbench.reproduction.outputs import forget, read_parts
 from workbench.reproduction.profiles import fetch_tables
-from workbench.experiments.progress import duration
 from workbench.reproduction.report import write_report
-from workbench.reproduction.costa2018.uci_projections import UCI_FIGURES
-from workbench.files import write_atomically
 from workbench.resources import bundled
 
 PROFILES = ("quick", "full")

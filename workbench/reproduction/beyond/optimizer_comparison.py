@@ -7,6 +7,9 @@ from typing import Any
 
 import pandas as pd
 
+from workbench.experiments.runs.schemes import scheme_name
+from workbench.experiments.statistics import boxplot_statistics
+from workbench.figures.boxplots import Box
 from workbench.reproduction.beyond.optimizer_runs import (
     BASELINE,
     BEFORE_MARKERS,
@@ -15,9 +18,6 @@ from workbench.reproduction.beyond.optimizer_runs import (
     PROJECTORS,
     scheme_of,
 )
-from workbench.experiments.runs.schemes import scheme_name
-from workbench.experiments.statistics import boxplot_statistics
-from workbench.figures.boxplots import Box
 
 #: A method of the comparison: its name, its optimizer and its search for markers.
 _Kind = tuple[str, str, str | None]

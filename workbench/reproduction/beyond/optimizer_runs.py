@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from workbench.errors import WorkbenchError
-from workbench.reproduction.costa2018.keyframe_errors import RATIO
 from workbench.experiments.runs.schemes import SchemeRun
+from workbench.reproduction.costa2018.keyframe_errors import RATIO
 from workbench.schemes import SpatialScheme
 
 #: What all others are compared with.

@@ -9,10 +9,10 @@ import pandas as pd
 
 from workbench.errors import WorkbenchError
 from workbench.experiments.grid import describe_failures
-from workbench.reproduction.published import published
-from workbench.experiments.runs.schemes import SchemeRun, Scheme, scheme_name
+from workbench.experiments.runs.schemes import Scheme, SchemeRun, scheme_name
 from workbench.experiments.statistics import boxplot_statistics
 from workbench.figures.boxplots import Box
+from workbench.reproduction.published import published
 from workbench.schemes import SpatialScheme, TemporalScheme
 
 #: Share of the frames that are keyframes.

@@ -9,10 +9,10 @@ from typing import Any
 import pandas as pd
 
 from workbench.experiments.grid import describe_failures
-from workbench.reproduction.published import published, published_ids
-from workbench.experiments.runs.schemes import SchemeRun, Scheme, scheme_name
+from workbench.experiments.runs.schemes import Scheme, SchemeRun, scheme_name
 from workbench.experiments.store import ResultStore
 from workbench.figures.embeddings import Panel
+from workbench.reproduction.published import published, published_ids
 from workbench.schemes import SpatialScheme
 
 #: Share of the rows that are control points.
