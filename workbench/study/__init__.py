@@ -1,0 +1,1 @@
+"""User studies: answers of participants, and paired comparisons of what they rated."""
