@@ -122,7 +122,7 @@ NOTEBOOKS = (
             "costa2018:fig4.2": (19, "Twelve poses of one clip"),
             "costa2018:fig6.1": (
                 39,
-                "Authoring: inspect poses, deform the trajectory, choose keys",
+                "Authoring: inspect poses, deform the curve, choose keys",
             ),
         },
     ),
@@ -205,7 +205,7 @@ NOTEBOOKS = (
     _notebook(
         "halit2010_parameters",
         {
-            "halit2010:fig4.1": (26, "Error against the parameters k and σ"),
+            "halit2010:fig4.1": (26, "Error against the number of components and the scale"),
             "halit2010:fig4.2": (27, "Running time against the number of frames"),
         },
         runs="halit2010.parameters",
