@@ -22,8 +22,9 @@ from workbench.reproduction import images
 from workbench.reproduction.images import write_pngs
 from workbench.reproduction.items import ITEMS, Item, item_state
 from workbench.reproduction.notebooks import this_interpreter
-from workbench.reproduction.report import format_cell, write_report
+from workbench.reproduction.report import write_report
 from workbench.reproduction.reproduce import ReproductionReport, reproduce, reproduce_items
+from workbench.reproduction.tables import format_cell
 
 PARAMETERS = "profile = None\nseed = None\njobs = None\nout = None\nresults = None"
 GOOD = """
@@ -131,8 +132,8 @@ def test_progress_names_notebooks_lines_and_failures(run):
     """Lines on stderr are passed on, parameters have arrived, and failures are named."""
     _, messages = run
     assert "bad (1 of 3)" in messages
-    assert any(line.startswith("  failed after") and "ZeroDivision" in line for line in messages)
-    assert "  drawing quick 7" in messages
+    assert any("bad failed after" in line and "ZeroDivision" in line for line in messages)
+    assert "  good: drawing quick 7" in messages
     assert messages[-1].startswith("report: ")
 
 
@@ -167,7 +168,8 @@ def test_the_report_is_well_formed(run):
     page = _Page(run[0].index)
     assert len(page.ids) == len(set(page.ids))
     assert page.tags.count("h1") == 1
-    assert page.tags.count("h2") == 4 + 1
+    assert page.tags.count("h2") == 1 + 1
+    assert page.tags.count("h3") == 4
     assert all(image["alt"] for image in page.images)
 
 

@@ -53,12 +53,15 @@ class Notebook:
         Where the function ``planned_runs(profile, seed)`` lies that lists the runs it reads,
         as a module of :mod:`workbench.reproduction`; empty if it reads none. So a
         reproduction executes the runs of all notebooks at once, each of them once.
+    tables : bool
+        Whether it uses tables, which are then downloaded if that takes seconds.
     """
 
     name: str
     items: tuple[Item, ...]
     extras: tuple[Item, ...] = ()
     runs: str = ""
+    tables: bool = False
 
     def planned_runs(self, profile: str, seed: int) -> list[Run]:
         """List the runs that the notebook will read."""
@@ -81,12 +84,13 @@ def _notebook(
     own: dict[str, tuple[str, str]] | None = None,
     extras: dict[str, tuple[str, str]] | None = None,
     runs: str = "",
+    tables: bool = False,
 ) -> Notebook:
     """Describe a notebook by pages and titles of published items, places and titles of ours."""
     published = [Item(i, title, _place(i, page), name) for i, (page, title) in items.items()]
     ours = [Item(i, title, place, name) for i, (place, title) in (own or {}).items()]
     beside = [Item(i, title, place, name) for i, (place, title) in (extras or {}).items()]
-    return Notebook(name, (*published, *ours), tuple(beside), runs)
+    return Notebook(name, (*published, *ours), tuple(beside), runs, tables)
 
 
 def _place(item_id: str, page: int) -> str:
@@ -186,6 +190,7 @@ NOTEBOOKS = (
             ),
         },
         runs="costa2018.uci_projections",
+        tables=True,
     ),
     _notebook(
         "halit2010_overview",
@@ -296,6 +301,7 @@ NOTEBOOKS = (
             ),
         },
         runs="beyond.control_point_share",
+        tables=True,
     ),
     _notebook(
         "three_dimensions",
@@ -307,6 +313,7 @@ NOTEBOOKS = (
             ),
         },
         runs="beyond.three_dimensions",
+        tables=True,
     ),
     _notebook(
         "held_out",
@@ -318,6 +325,7 @@ NOTEBOOKS = (
             ),
         },
         runs="beyond.held_out",
+        tables=True,
     ),
 )
 

@@ -29,6 +29,9 @@ def run_notebook(
 ) -> str:
     """Run one notebook and keep it, executed, in the output folder.
 
+    Within :func:`this_interpreter` the kernel is this Python. Several threads may each run a
+    notebook.
+
     Parameters
     ----------
     notebook : Path
@@ -56,15 +59,14 @@ def run_notebook(
     error = ""
     try:
         known = papermill.inspect_notebook(notebook)
-        with this_interpreter():
-            papermill.execute_notebook(
-                notebook,
-                executed,
-                parameters={name: parameters[name] for name in known if name in parameters},
-                kernel_name="python3",
-                progress_bar=False,
-                stderr_file=_Lines(progress),
-            )
+        papermill.execute_notebook(
+            notebook,
+            executed,
+            parameters={name: parameters[name] for name in known if name in parameters},
+            kernel_name="python3",
+            progress_bar=False,
+            stderr_file=_Lines(progress),
+        )
     except Exception as exception:  # whatever ends a notebook must not stop the others
         error = _last_lines(exception)
     seconds = time.perf_counter() - start

@@ -11,6 +11,7 @@ from workbench.experiments.progress import duration
 from workbench.experiments.versions import versions
 from workbench.files import write_atomically
 from workbench.reproduction.items import Item, item_state
+from workbench.reproduction.ledger import count_verdicts, write_ledger
 from workbench.reproduction.outputs import (
     FIGURE,
     NOT_MADE,
@@ -25,6 +26,13 @@ from workbench.reproduction.published import published, published_ids
 from workbench.reproduction.tables import format_cell
 
 _TEMPLATES = Path(__file__).with_name("templates")
+
+#: Headings of the report by what is before the colon of an id.
+_CHAPTERS = {
+    "costa2018": "Costa 2018: spatial keyframes and the optimizer of projections",
+    "halit2010": "Halit 2010: keyframes by motion saliency",
+}
+_BEYOND = "Beyond the theses"
 
 #: Columns whose numbers are differences, shown with their sign.
 _SIGNED = "difference"
@@ -68,19 +76,37 @@ def write_report(out: Path, items: Sequence[Item]) -> Path:
 def _content(out: Path, items: Sequence[Item]) -> dict[str, Any]:
     run = json.loads((out / "run.json").read_text(encoding="utf-8"))
     parts = read_parts(out)
+    notebooks = list(dict.fromkeys(item.notebook for item in items))
     sections = [_section(out, item, parts, run) for item in items]
-    notebooks = dict.fromkeys(item.notebook for item in items)
-    data = _data(out, list(notebooks))
+    claims = write_ledger(out, notebooks)
+    data = _data(out, notebooks)
     outcomes = [read_outcome(out, name) for name in notebooks]
     return {
         "run": run,
         "data": data,
         "used": _describe_data(data),
         "sections": sections,
+        "chapters": _chapters(sections),
         "n_done": sum(section["state"] == "done" for section in sections),
+        "claims": claims,
+        "verdicts": count_verdicts(claims),
         "notebooks": [outcome for outcome in outcomes if outcome is not None],
         "versions": versions(),
     }
+
+
+def _chapters(sections: Sequence[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Group sections by where they are published; what is in no thesis comes last."""
+    chapters: dict[str, list[dict[str, Any]]] = {}
+    for section in sections:
+        source = section["item"].id.partition(":")[0]
+        chapters.setdefault(_CHAPTERS.get(source, _BEYOND), []).append(section)
+    order = [*_CHAPTERS.values(), _BEYOND]
+    return [
+        {"title": title, "anchor": slug(title), "sections": chapters[title]}
+        for title in order
+        if title in chapters
+    ]
 
 
 def _section(
@@ -126,12 +152,18 @@ def _published_value(item_id: str) -> dict[str, Any] | None:
 
 
 def _figure(out: Path, part: dict[str, Any]) -> dict[str, Any]:
+    """Prepare a figure: its data go into a script of their own, which is read when it is seen.
+
+    A page opened from a folder may not fetch files, but it may load scripts; with the data of
+    all figures inside it, the page would be slow to open.
+    """
     path = out / "figures" / f"{part['name']}.json"
-    # In a script element only "<" could end the element.
-    content = path.read_text(encoding="utf-8").replace("<", "\\u003c")
+    content = path.read_text(encoding="utf-8")
+    script = f"showFigure({json.dumps(part['name'])}, {content});\n"
+    write_atomically(path.with_suffix(".js"), script.encode())
     height = json.loads(content).get("layout", {}).get("height", 450)
     has_image = path.with_suffix(".png").exists()
-    return {**part, "content": content, "height": height, "has_image": has_image}
+    return {**part, "height": height, "has_image": has_image}
 
 
 def _table(part: dict[str, Any]) -> dict[str, Any]:

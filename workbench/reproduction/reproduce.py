@@ -6,20 +6,33 @@ import json
 import sys
 import time
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from joblib import effective_n_jobs
 
 from workbench.errors import WorkbenchError
-from workbench.experiments.progress import duration
+from workbench.experiments.progress import ProgressLine, duration
 from workbench.files import write_atomically
-from workbench.reproduction.costa2018.uci_projections import UCI_FIGURES
 from workbench.reproduction.images import write_pngs
-from workbench.reproduction.items import EXTRAS, ITEMS, Item, item_state, select_items
-from workbench.reproduction.notebooks import run_notebook
+from workbench.reproduction.items import (
+    EXTRAS,
+    ITEMS,
+    NOTEBOOKS,
+    Item,
+    item_state,
+    select_items,
+)
+from workbench.reproduction.notebooks import run_notebook, this_interpreter
 from workbench.reproduction.outputs import forget, read_parts
 from workbench.reproduction.profiles import fetch_tables
 from workbench.reproduction.report import write_report
 from workbench.resources import bundled
+
+if TYPE_CHECKING:
+    from workbench.experiments.runs.base import Run
 
 PROFILES = ("quick", "full")
 
@@ -67,14 +80,17 @@ def reproduce(
     *,
     profile: str = "quick",
     jobs: int = -1,
+    scheduler: str | None = None,
     out: str | Path = "reproduction",
     seed: int = 0,
     progress: Callable[[str], None] = print_progress,
 ) -> ReproductionReport:
     """Run the notebooks that make figures and tables, and write the report.
 
-    A notebook that fails does not keep the others from running; its error is in the report.
-    Runs that were finished before, in the same output folder, are not computed again.
+    What the notebooks read is computed first, for all of them at once, so that a run that
+    several of them want is executed once. A notebook that fails does not keep the others from
+    running; its error is in the report. Runs that were finished before, in the same output
+    folder, are not computed again.
 
     Parameters
     ----------
@@ -84,6 +100,9 @@ def reproduce(
         Bundled data, within minutes; or all data found.
     jobs : int
         Number of processes, -1 for all cores.
+    scheduler : str, optional
+        Address of a Dask scheduler, such as ``"tcp://127.0.0.1:8786"``, on whose workers the
+        runs are executed in place of processes of this machine.
     out : path-like
         Output folder; what is in it and not remade is kept.
     seed : int
@@ -110,6 +129,7 @@ def reproduce(
         bundled("notebooks"),
         profile=profile,
         jobs=jobs,
+        scheduler=scheduler,
         out=out,
         seed=seed,
         progress=progress,
@@ -125,57 +145,118 @@ def reproduce_items(
     out: str | Path,
     seed: int,
     progress: Callable[[str], None],
+    scheduler: str | None = None,
 ) -> ReproductionReport:
     """Run the notebooks of given items, from a given folder; otherwise as :func:`reproduce`."""
     start = time.perf_counter()
     folder = Path(out).expanduser().resolve()
     _check_writable(folder)
     # With all items of a notebook come its extras; with some of them, they alone.
-    whole = {item.notebook for item in items} - {
-        item.notebook for item in ITEMS if item not in items
-    }
-    wanted = [*items, *(extra for extra in EXTRAS if extra.notebook in whole)]
-    parameters = {
-        "profile": profile,
-        "seed": seed,
-        "jobs": jobs,
-        "out": str(folder),
-        "results": str(folder / "results"),
-    }
-    ids = [item.id for item in items]
-    tables = [figure.dataset for figure in UCI_FIGURES if figure.item in ids]
-    for table in fetch_tables(tables):
-        progress(f"{table} is not here and was not to be had within seconds: going on without it")
     names = list(dict.fromkeys(item.notebook for item in items))
-    errors = {}
-    for number, name in enumerate(names, 1):
-        progress(f"{name} ({number} of {len(names)})")
+    partly = {item.notebook for item in ITEMS if item not in items}
+    whole = [name for name in names if name not in partly]
+    wanted = [*items, *(extra for extra in EXTRAS if extra.notebook in whole)]
+    for table in fetch_tables(_tables_of(names)):
+        progress(f"{table} is not here and was not to be had within seconds: going on without it")
+    results = folder / "results"
+    computed = _execute_runs(
+        whole, results, profile=profile, seed=seed, jobs=jobs, scheduler=scheduler, say=progress
+    )
+    tasks = {}
+    for name in names:
+        mine = [item.id for item in wanted if item.notebook == name]
+        tasks[name] = {
+            "profile": profile,
+            "seed": seed,
+            "jobs": 1 if name in computed else jobs,
+            "out": str(folder),
+            "results": str(results),
+            "items": None if name in whole else mine,
+        }
+    errors = _run_notebooks(notebooks, folder, tasks, wanted, jobs=jobs, say=progress)
+    notices = _write_images(folder, progress)
+    seconds = time.perf_counter() - start
+    run = {"profile": profile, "seed": seed, "seconds": seconds, "notices": notices}
+    write_atomically(folder / "run.json", json.dumps(run, indent=1).encode())
+    made = {part["item"] for part in read_parts(folder)}
+    known = [*ITEMS, *EXTRAS]
+    shown = [item for item in known if item.id in made or item in wanted]
+    index = write_report(folder, [*shown, *(item for item in wanted if item not in known)])
+    progress(f"report: {index}")
+    states = {item.id: item_state(item, folder) for item in items}
+    return ReproductionReport(folder, index, states, errors, tuple(notices), seconds)
+
+
+def _tables_of(names: Sequence[str]) -> list[str]:
+    """Name the tables that are worth a download for some notebooks."""
+    if not any(notebook.tables for notebook in NOTEBOOKS if notebook.name in names):
+        return []
+    from workbench.datasets import list_datasets
+
+    return [s.entry.name for s in list_datasets() if s.entry.name.startswith("uci/")]
+
+
+def _execute_runs(
+    names: Sequence[str],
+    results: Path,
+    *,
+    profile: str,
+    seed: int,
+    jobs: int,
+    scheduler: str | None,
+    say: Callable[[str], None],
+) -> set[str]:
+    """Execute the runs of some notebooks, each once; give the notebooks whose runs these were."""
+    from workbench.experiments.grid import run_grid
+
+    planned: dict[str, list[Run]] = {}
+    for notebook in NOTEBOOKS:
+        if notebook.name in names and notebook.runs:
+            try:
+                planned[notebook.name] = notebook.planned_runs(profile, seed)
+            except WorkbenchError as error:
+                # The notebook, run alone, says so too, and its error is in the report.
+                say(f"{notebook.name}: {error}")
+    runs = list(dict.fromkeys(run for mine in planned.values() for run in mine))
+    if runs:
+        say(f"{len(runs)} runs for {len(planned)} notebooks")
+        on_cluster = {} if scheduler is None else {"scheduler": scheduler}
+        run_grid(runs, results, n_jobs=jobs, progress=ProgressLine("  runs"), **on_cluster)
+    return set(planned)
+
+
+def _run_notebooks(
+    notebooks: Path,
+    folder: Path,
+    tasks: dict[str, dict[str, Any]],
+    wanted: Sequence[Item],
+    *,
+    jobs: int,
+    say: Callable[[str], None],
+) -> dict[str, str]:
+    """Run notebooks, as many at once as there are jobs; give the errors of those that failed."""
+
+    def run_one(name: str) -> str:
+        say(f"{name} ({list(tasks).index(name) + 1} of {len(tasks)})")
         mine = [item.id for item in wanted if item.notebook == name]
         forget(folder, name, set(mine))
         began = time.perf_counter()
         error = run_notebook(
             notebooks / f"{name}.ipynb",
             folder,
-            {**parameters, "items": None if name in whole else mine},
-            lambda line: progress(f"  {line}"),
+            tasks[name],
+            lambda line: say(f"  {name}: {line}"),
             items=mine,
         )
         took = duration(time.perf_counter() - began)
-        if error:
-            errors[name] = error
-            progress(f"  failed after {took}: {error.splitlines()[-1]}")
-        else:
-            progress(f"  finished in {took}")
-    notices = _write_images(folder, progress)
-    seconds = time.perf_counter() - start
-    run = {"profile": profile, "seed": seed, "seconds": seconds, "notices": notices}
-    write_atomically(folder / "run.json", json.dumps(run, indent=1).encode())
-    made = {part["item"] for part in read_parts(folder)}
-    earlier = [item for item in (*ITEMS, *EXTRAS) if item.id in made and item not in wanted]
-    index = write_report(folder, [*wanted, *earlier])
-    progress(f"report: {index}")
-    states = {item.id: item_state(item, folder) for item in items}
-    return ReproductionReport(folder, index, states, errors, tuple(notices), seconds)
+        ended = f"failed after {took}: {error.splitlines()[-1]}" if error else f"took {took}"
+        say(f"  {name} {ended}")
+        return error
+
+    n_threads = effective_n_jobs(jobs)
+    with this_interpreter(), ThreadPoolExecutor(n_threads) as pool:
+        ended = dict(zip(tasks, pool.map(run_one, tasks), strict=True))
+    return {name: error for name, error in ended.items() if error}
 
 
 def _check_writable(folder: Path) -> None:

@@ -8,8 +8,8 @@ import pandas as pd
 import pytest
 
 from workbench.errors import WorkbenchError
-from workbench.reproduction.costa2018 import keyframe_errors
 from workbench.experiments.grid import run_grid
+from workbench.experiments.runs.schemes import scheme_name
 from workbench.reproduction.beyond.optimizer_comparison import (
     compare_markers,
     compare_optimizers,
@@ -27,7 +27,7 @@ from workbench.reproduction.beyond.optimizer_runs import (
     optimizer_runs,
     scheme_of,
 )
-from workbench.experiments.runs.schemes import scheme_name
+from workbench.reproduction.costa2018 import keyframe_errors
 
 
 def _row(clip: str, optimizer: str | None, error: float, markers=None, **values) -> dict:

@@ -8,9 +8,9 @@ import pandas as pd
 import pytest
 
 from workbench.errors import WorkbenchError
+from workbench.experiments.runs.schemes import scheme_name
 from workbench.reproduction.costa2018 import keyframe_errors
 from workbench.reproduction.published import published
-from workbench.experiments.runs.schemes import scheme_name
 
 
 def _results(errors: dict[str, list[float]]) -> pd.DataFrame:

@@ -1,6 +1,12 @@
-// Draw each figure when it is about to be seen, from the data that stand in the page:
-// a page opened from a folder may not fetch files.
+// Draw each figure when it is about to be seen. A page opened from a folder may not fetch files,
+// so the data of a figure are a script, which calls showFigure.
 "use strict";
+const waiting = new Map();
+window.showFigure = (name, figure) => {
+  const plot = waiting.get(name);
+  waiting.delete(name);
+  if (plot) Plotly.newPlot(plot, figure.data, figure.layout, { responsive: true, displaylogo: false });
+};
 window.addEventListener("DOMContentLoaded", () => {
   const plots = [...document.querySelectorAll(".plot")];
   if (typeof Plotly === "undefined") {
@@ -8,10 +14,12 @@ window.addEventListener("DOMContentLoaded", () => {
     return;
   }
   const draw = (plot) => {
-    if (plot.dataset.drawn) return;
-    plot.dataset.drawn = "yes";
-    const figure = JSON.parse(document.getElementById(plot.dataset.content).textContent);
-    Plotly.newPlot(plot, figure.data, figure.layout, { responsive: true, displaylogo: false });
+    if (plot.dataset.asked) return;
+    plot.dataset.asked = "yes";
+    waiting.set(plot.dataset.figure, plot);
+    const script = document.createElement("script");
+    script.src = `figures/${plot.dataset.figure}.js`;
+    document.head.append(script);
   };
   const seen = new IntersectionObserver(
     (entries) => {
@@ -25,6 +33,4 @@ window.addEventListener("DOMContentLoaded", () => {
     { rootMargin: "600px" },
   );
   plots.forEach((plot) => seen.observe(plot));
-  // Printing shows the still images where there are any, else the drawn figures.
-  window.addEventListener("beforeprint", () => plots.forEach(draw));
 });
