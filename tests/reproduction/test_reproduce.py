@@ -8,6 +8,7 @@ import re
 import shutil
 import subprocess
 import sys
+from dataclasses import dataclass
 from html.parser import HTMLParser
 from pathlib import Path
 
@@ -18,13 +19,16 @@ from nbformat.v4 import new_code_cell, new_notebook
 
 from tests.browser.chromium import chromium_path
 from workbench.errors import WorkbenchError
+from workbench.experiments.runs.schemes import SchemeRun
 from workbench.reproduction import images
 from workbench.reproduction.images import write_pngs
-from workbench.reproduction.items import ITEMS, Item, item_state
+from workbench.reproduction.items import ITEMS, Item, Notebook, item_state
 from workbench.reproduction.notebooks import this_interpreter
+from workbench.reproduction.outputs import read_parts
 from workbench.reproduction.report import write_report
 from workbench.reproduction.reproduce import ReproductionReport, reproduce, reproduce_items
 from workbench.reproduction.tables import format_cell
+from workbench.schemes import SpatialScheme
 
 PARAMETERS = "profile = None\nseed = None\njobs = None\nout = None\nresults = None"
 GOOD = """
@@ -223,6 +227,53 @@ def test_a_run_of_some_items_that_fails_leaves_the_others(run, tmp_path: Path):
     write_report(folder, [FIG1, FIG2])
     sections = re.findall(r"<section .*?</section>", report.index.read_text(), re.DOTALL)
     assert ["ended with an error" in section for section in sections] == [False, True]
+
+
+PLANNED = [SchemeRun("uci/iris", SpatialScheme("pca", selector="random"), ratio=0.05, seed=7)]
+READS = """
+from workbench.experiments.grid import run_grid
+from workbench.reproduction.outputs import Outputs
+from tests.reproduction.test_reproduce import PLANNED
+
+table = run_grid(PLANNED, results, n_jobs=jobs)
+Outputs(out).values("test:NAME", {"error": float(table["error"].iloc[0]), "jobs": jobs})
+"""
+
+
+@dataclass(frozen=True)
+class _Planning(Notebook):
+    """A notebook whose runs are those of this module."""
+
+    def planned_runs(self, profile, seed):
+        return PLANNED
+
+
+def test_a_run_that_two_notebooks_read_is_executed_once(tmp_path: Path, monkeypatch):
+    """Runs are computed before the notebooks start, which then read them."""
+    items = [Item(f"test:{name}", "Shared", "Nowhere", name) for name in ("one", "two")]
+    listed = [_Planning(item.notebook, (item,), runs="here") for item in items]
+    monkeypatch.setattr("workbench.reproduction.reproduce.NOTEBOOKS", listed)
+    monkeypatch.setenv("PYTHONPATH", str(Path(__file__).parents[2]))
+    for item in items:
+        _write_notebook(tmp_path / f"{item.notebook}.ipynb", READS.replace("NAME", item.notebook))
+    messages: list[str] = []
+    report = reproduce_items(
+        items,
+        tmp_path,
+        profile="quick",
+        jobs=2,
+        out=tmp_path / "out",
+        seed=7,
+        progress=messages.append,
+    )
+    assert not report.failed
+    assert "1 runs for 2 notebooks" in messages
+    parts = [part["values"] for part in read_parts(tmp_path / "out")]
+    # One process each suffices to read what is there.
+    assert parts == [{"error": parts[0]["error"], "jobs": 1}] * 2
+    (stored,) = (tmp_path / "out" / "results").glob("*.json")
+    first_notebook = tmp_path / "out" / "notebooks" / "one.ipynb"
+    assert stored.stat().st_mtime < first_notebook.stat().st_mtime
 
 
 def test_arguments_are_checked_before_anything_runs(tmp_path: Path):

@@ -36,6 +36,12 @@ def reproduce(
     jobs: Annotated[
         int, typer.Option(help="Processes that compute at once; -1 for one on each core.")
     ] = -1,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS", help="Compute on a Dask cluster, such as tcp://127.0.0.1:8786."
+        ),
+    ] = None,
     seed: Seed = 0,
     out: Annotated[Path, typer.Option(help="Folder for the report.")] = Path("reproduction"),
     json: Json = False,
@@ -53,7 +59,7 @@ def reproduce(
         for row, item in zip(rows, items, strict=True):
             typer.echo(f"{row['id']:<20}  {row['state']:<10}  {item.title}")
         return
-    outcome = run(ids, profile=profile.value, jobs=jobs, out=out, seed=seed)
+    outcome = run(ids, profile=profile.value, jobs=jobs, scheduler=scheduler, out=out, seed=seed)
     if json:
         report({"items": _describe(items, out)}, as_json=True)
     else:
