@@ -9,10 +9,14 @@ from dataclasses import dataclass
 import numpy as np
 import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
-from plotly.subplots import make_subplots
 
 from workbench.errors import WorkbenchError
-from workbench.figures.style import BLACK, BLUE, TEMPLATE, class_style
+from workbench.figures.panels import panel_grid
+from workbench.figures.style import BLACK, BLUE, class_style
+
+#: Marker of a control point, and what draws nothing but an entry of the legend.
+CROSS = {"symbol": "x", "size": 9, "color": "white", "line": {"color": BLACK, "width": 1}}
+LEGEND_ONLY = {"x": [None], "y": [None], "mode": "markers"}
 
 #: Points of a panel above which drawing them as vectors makes a page slow.
 _MANY = 3000
@@ -76,33 +80,11 @@ def embedding_panels(
                 f"panel {panel.title!r}: got points of shape {panel.points.shape} and "
                 f"{len(classes)} labels, want ({n_samples}, 2) and {n_samples}"
             )
-    n_rows = -(-len(panels) // n_columns)
-    figure = make_subplots(
-        rows=n_rows,
-        cols=n_columns,
-        subplot_titles=[panel.title for panel in panels],
-        horizontal_spacing=0.04,
-        vertical_spacing=0.07 if n_rows > 1 else 0.0,
-    )
-    for index, panel in enumerate(panels):
-        row, column = index // n_columns + 1, index % n_columns + 1
+    figure, places = panel_grid([panel.title for panel in panels], n_columns)
+    for index, (panel, (row, column)) in enumerate(zip(panels, places, strict=True)):
         for trace in _panel_traces(panel, classes, first=index == 0):
             figure.add_trace(trace, row=row, col=column)
-        axis = figure.get_subplot(row, column)
-        axis.yaxis.scaleanchor = axis.xaxis.anchor.replace("y", "x")
-    figure.update_xaxes(
-        showticklabels=False, ticks="", showgrid=False, zeroline=False, mirror=True, showline=True
-    )
-    figure.update_yaxes(
-        showticklabels=False, ticks="", showgrid=False, zeroline=False, mirror=True, showline=True
-    )
-    figure.update_annotations(font_size=13)
-    return figure.update_layout(
-        template=TEMPLATE,
-        height=90 + 380 * n_rows,
-        margin={"l": 12, "r": 12, "t": 40, "b": 60},
-        legend={"yanchor": "top", "y": -0.03, "itemsizing": "constant"},
-    )
+    return figure
 
 
 def _panel_traces(
@@ -131,7 +113,7 @@ def _panel_traces(
                 legendgroup=name,
                 showlegend=first and not control,
                 marker=(
-                    {"symbol": "x", "size": 9, "color": color, "line": {"color": BLACK, "width": 1}}
+                    {**CROSS, "color": color}
                     if control
                     else {"symbol": symbol, "size": 5, "color": color, "opacity": 0.75}
                 ),
@@ -141,20 +123,7 @@ def _panel_traces(
             )
             (crosses if control else dots).append(trace)
     if first:
-        crosses.append(
-            go.Scatter(
-                name="control point",
-                x=[None],
-                y=[None],
-                mode="markers",
-                marker={
-                    "symbol": "x",
-                    "size": 9,
-                    "color": "white",
-                    "line": {"color": BLACK, "width": 1},
-                },
-            )
-        )
+        crosses.append(go.Scatter(name="control point", marker=CROSS, **LEGEND_ONLY))
     return dots + crosses
 
 
