@@ -94,3 +94,11 @@ def test_nothing_to_compare_is_refused():
     """An empty figure would look like a result."""
     with pytest.raises(WorkbenchError, match="no comparison"):
         difference_figure({"ours": []})
+
+
+def test_axes_of_small_and_large_differences_can_be_compared():
+    """Small differences do not fill the axis, large ones stay on it."""
+    small = implied_comparisons({("a", "b"): (0.1, 0.001)}, 20)
+    large = implied_comparisons({("a", "b"): (6.0, 0.001)}, 20)
+    assert list(difference_figure({"ours": small}).layout.xaxis.range) == [-1.1, 3.1]
+    assert difference_figure({"ours": large}).layout.xaxis.range[1] > large[0].high

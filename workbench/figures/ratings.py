@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Iterable, Mapping, Sequence
+from textwrap import wrap
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +23,8 @@ if TYPE_CHECKING:
 
 #: Pixels for each participant, for each row of means or differences, and for the rest.
 _PARTICIPANT, _ROW, _FRAME = 26, 34, 130
+#: Differences that every axis shows, so that the figures of one study have about one scale.
+_AT_LEAST = (-1.0, 3.0)
 _BAND = "#F4F6F8"
 _LINE = "#D5DAE0"
 _MINUS = "\N{MINUS SIGN}"
@@ -74,8 +77,10 @@ def rating_figure(ratings: pd.DataFrame) -> go.Figure:
         col=1,
     )
     figure.update_yaxes(
+        title_text="mean",
         tickvals=list(range(n_stimuli)),
-        ticktext=[f"mean, {name}" for name in _as_text(ratings.columns)],
+        # In short lines, so that the labels leave room on a phone.
+        ticktext=["<br>".join(map(_plain, wrap(str(name), 14))) for name in ratings.columns],
         range=[n_stimuli - 0.5, -0.5],
         showgrid=False,
         zeroline=False,
@@ -123,7 +128,7 @@ def difference_figure(sources: Mapping[str, Sequence[PairedComparison]]) -> go.F
     if not labels:
         raise WorkbenchError("sources: got no comparison to draw")
     figure = go.Figure(layout={"template": TEMPLATE})
-    figure.add_vline(0.0, line={"color": GREY, "width": 1, "dash": "dot"})
+    figure.add_vline(0.0, line={"color": GREY, "width": 1, "dash": "dot"}, layer="below")
     n_sources = len(sources)
     for index, (source, comparisons) in enumerate(sources.items()):
         # A single source is the published one where ours is missing; colours mean sources.
@@ -152,13 +157,19 @@ def difference_figure(sources: Mapping[str, Sequence[PairedComparison]]) -> go.F
         )
     figure.update_yaxes(
         tickvals=list(range(len(labels))),
-        # In two lines, so that the labels leave room on a phone.
+        # In two lines, for the same reason.
         ticktext=[_plain(label).replace(f" {_MINUS} ", f" {_MINUS}<br>") for label in labels],
         range=[len(labels) - 0.5, -0.5],
         showgrid=False,
         zeroline=False,
     )
-    figure.update_xaxes(title_text="mean difference of ratings, in points", zeroline=False)
+    ends = [end for found in sources.values() for c in found for end in (c.low, c.high)]
+    low, high = np.nanmin([*ends, _AT_LEAST[0]]), np.nanmax([*ends, _AT_LEAST[1]])
+    figure.update_xaxes(
+        title_text="mean difference of ratings, in points",
+        range=[low - 0.1, high + 0.1],
+        zeroline=False,
+    )
     return figure.update_layout(height=_FRAME + len(labels) * max(_ROW + 10, 26 * n_sources))
 
 
