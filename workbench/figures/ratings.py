@@ -128,7 +128,6 @@ def difference_figure(sources: Mapping[str, Sequence[PairedComparison]]) -> go.F
     if not labels:
         raise WorkbenchError("sources: got no comparison to draw")
     figure = go.Figure(layout={"template": TEMPLATE})
-    figure.add_vline(0.0, line={"color": GREY, "width": 1, "dash": "dot"}, layer="below")
     n_sources = len(sources)
     for index, (source, comparisons) in enumerate(sources.items()):
         # A single source is the published one where ours is missing; colours mean sources.
@@ -168,7 +167,8 @@ def difference_figure(sources: Mapping[str, Sequence[PairedComparison]]) -> go.F
     figure.update_xaxes(
         title_text="mean difference of ratings, in points",
         range=[low - 0.1, high + 0.1],
-        zeroline=False,
+        zerolinecolor=GREY,
+        zerolinewidth=1.5,
     )
     return figure.update_layout(height=_FRAME + len(labels) * max(_ROW + 10, 26 * n_sources))
 
