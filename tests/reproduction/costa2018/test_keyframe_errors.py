@@ -10,6 +10,7 @@ import pytest
 from workbench.errors import WorkbenchError
 from workbench.experiments.runs.schemes import scheme_name
 from workbench.reproduction.costa2018 import keyframe_errors
+from workbench.reproduction.costa2018.results import describe_clips
 from workbench.reproduction.published import published
 
 
@@ -95,7 +96,7 @@ def test_schemes_without_a_common_clip_are_not_compared():
 
 def test_one_clip_is_not_clips():
     """The caption of a single clip of a single length reads as a sentence."""
-    text = keyframe_errors.describe_clips(TABLE[TABLE["dataset"] == "cmu/a"])
+    text = describe_clips(TABLE[TABLE["dataset"] == "cmu/a"])
     assert text.startswith("1 CMU clip of 100 frames (a), where the thesis had 70")
 
 
@@ -107,7 +108,7 @@ def test_the_caption_says_which_clips_and_what_failed():
         "scheme": TSNE,
         "message": "cmu/d: too short",
     }
-    text = keyframe_errors.describe_clips(pd.concat([TABLE, pd.DataFrame([failure])]))
+    text = describe_clips(pd.concat([TABLE, pd.DataFrame([failure])]))
     assert text.startswith("3 CMU clips of 100 to 300 frames (a, b, c), where the thesis had 70")
     assert text.endswith("1 of 10 runs failed; the first: cmu/d: too short")
 
@@ -116,7 +117,7 @@ def test_a_grid_that_failed_as_a_whole_is_an_error():
     """There is no table to draw when every run failed; the reason is passed on."""
     failed = TABLE.assign(status="failed", message="no kernel")
     with pytest.raises(WorkbenchError, match="all runs failed; the first: no kernel"):
-        keyframe_errors.describe_clips(failed)
+        describe_clips(failed)
 
 
 def test_runs_cover_raw_and_optimized():
