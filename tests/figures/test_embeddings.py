@@ -38,6 +38,16 @@ def test_control_points_are_crosses_in_the_colour_of_their_class():
     assert all(cross.marker.color == dots[cross.name] for cross in crosses)
 
 
+def test_classes_look_as_they_are_said_to():
+    """A published figure's colours and order are kept; a class that it does not name follows."""
+    styles = {"c": ("#101010", "square"), "a": ("#202020", "circle"), "x": ("#303030", "circle")}
+    figure = embedding_panels(_panels(), labels=LABELS, styles=styles)
+    dots = [t for t in figure.data if t.xaxis == "x" and t.marker.symbol != "x"]
+    assert [t.name for t in dots] == ["c", "a", "b"]
+    drawn = [(t.marker.color, t.marker.symbol) for t in dots]
+    assert drawn == [styles["c"], styles["a"], class_style(2)]
+
+
 def test_both_axes_of_a_panel_have_one_scale():
     """Distances in the plane mean something, so no axis is stretched."""
     layout = embedding_panels(_panels()).layout

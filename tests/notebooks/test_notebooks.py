@@ -90,7 +90,7 @@ def test_table_5_1_runs_on_one_clip(tmp_path: Path):
 
 def test_figure_5_13_runs_alone(tmp_path: Path):
     """Asked for one figure, the notebook makes that figure, its values and its table."""
-    parts = _run("costa2018_figures_5_12_to_5_17", tmp_path, items=["costa2018:fig5.13"])
+    parts = _run("costa2018_uci", tmp_path, items=["costa2018:fig5.13"])
     assert {part["item"] for part in parts} == {"costa2018:fig5.13"}
     assert sorted(part["kind"] for part in parts) == ["figure", "table", "values"]
 

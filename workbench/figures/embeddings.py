@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -45,6 +45,7 @@ def embedding_panels(
     panels: Sequence[Panel],
     *,
     labels: ArrayLike | None = None,
+    styles: Mapping[str, tuple[str, str]] | None = None,
     n_columns: int = 2,
 ) -> go.Figure:
     """Draw embeddings of the same samples side by side.
@@ -58,6 +59,9 @@ def embedding_panels(
         The embeddings, row by row.
     labels : array-like of shape (n_samples,), optional
         Class of each sample. Classes take their colours in the order of their first sample.
+    styles : mapping of str to (colour, symbol), optional
+        What classes look like, in the order of the legend, in place of those colours; the
+        last are drawn above the others. Classes that are not named follow.
     n_columns : int
         Panels in a row.
 
@@ -80,26 +84,37 @@ def embedding_panels(
                 f"panel {panel.title!r}: got points of shape {panel.points.shape} and "
                 f"{len(classes)} labels, want ({n_samples}, 2) and {n_samples}"
             )
+    shown_as = _styles_of(classes, styles or {})
     figure, places = panel_grid([panel.title for panel in panels], n_columns)
     for index, (panel, (row, column)) in enumerate(zip(panels, places, strict=True)):
-        for trace in _panel_traces(panel, classes, first=index == 0):
+        for trace in _panel_traces(panel, classes, shown_as, first=index == 0):
             figure.add_trace(trace, row=row, col=column)
     return figure
 
 
+def _styles_of(
+    classes: NDArray[np.str_], given: Mapping[str, tuple[str, str]]
+) -> dict[str, tuple[str, str]]:
+    """Find colour and symbol of each class that has a sample."""
+    names = list(dict.fromkeys(classes.tolist()))
+    if len(names) == 1 and not given:
+        return {names[0]: (BLUE, "circle")}
+    found = {name: style for name, style in given.items() if name in names}
+    others = [name for name in names if name not in found]
+    return found | {name: class_style(len(found) + i) for i, name in enumerate(others)}
+
+
 def _panel_traces(
-    panel: Panel, classes: NDArray[np.str_], *, first: bool
+    panel: Panel, classes: NDArray[np.str_], styles: Mapping[str, tuple[str, str]], *, first: bool
 ) -> list[go.Scatter | go.Scattergl]:
     """Draw dots class by class, and above them the control points as crosses."""
     scatter = go.Scattergl if len(classes) > _MANY else go.Scatter
     is_control = np.zeros(len(classes), dtype=bool)
     is_control[panel.control_points] = True
-    names = list(dict.fromkeys(classes.tolist()))
     dots: list[go.Scatter | go.Scattergl] = []
     crosses: list[go.Scatter | go.Scattergl] = []
-    for index, name in enumerate(names):
+    for name, (color, symbol) in styles.items():
         shown = _as_text(name)
-        color, symbol = (BLUE, "circle") if len(names) == 1 else class_style(index)
         for control in (False, True):
             chosen = np.flatnonzero((classes == name) & (is_control == control))
             if len(chosen) == 0 and control:

@@ -1,60 +1,67 @@
-"""Figures 5.12 to 5.17 of Costa 2018: tables projected, and optimized."""
+"""Figures 5.12 to 5.17 of Costa 2018: tables projected in two steps, and optimized."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import pandas as pd
 
 from workbench.experiments.grid import describe_failures
-from workbench.experiments.runs.schemes import Scheme, SchemeRun, scheme_name
+from workbench.experiments.runs.before_after import BeforeAfterRun
+from workbench.experiments.runs.schemes import scheme_name
 from workbench.experiments.store import ResultStore
 from workbench.figures.embeddings import Panel
+from workbench.figures.style import BLUE, GREEN, GREY, ORANGE, PURPLE, SKY, VERMILLION
+from workbench.reproduction.costa2018.results import PROJECTORS
+from workbench.reproduction.profiles import absent_tables
 from workbench.reproduction.published import published, published_ids
 from workbench.schemes import SpatialScheme
 
 #: Share of the rows that are control points.
 RATIO = 0.03
+#: The item whose table takes every projector.
+TABLE_5_3 = "costa2018:tab5.3"
+#: Seeds of the full profile, beginning with that of the notebook.
+N_SEEDS = 3
+
+_OLIVE, _VIOLET, _BROWN = "#7D7A1E", "#6A4C9C", "#8A5A3B"
 
 
 @dataclass(frozen=True)
-class UciFigure:
-    """A figure of a table projected raw and optimized.
+class UciTable:
+    """A table of Table 5.3, and the figure that shows it.
 
     Attributes
     ----------
-    item : str
-        Id of the figure.
     dataset : str
         Name of the table.
     title : str
         What the thesis calls it.
-    projector : str
-        Registered name of the projector used here.
+    item : str
+        Id of its figure.
     method : str
-        What the projector is called.
+        The seed projector of the figure, one of the names in ``PROJECTORS``.
+    styles : dict of str to (colour, symbol)
+        Its classes, in the order and nearest to the colours of the figure's caption.
+    large : bool
+        Whether it has so many rows that the quick profile makes its figure alone, and the
+        full one takes fewer seeds.
+    n_seeds : int
+        From how many seeds the full profile runs it.
     note : str
-        How it differs from the thesis, beyond being projected in one step.
+        What a reader should know of the figure.
     """
 
-    item: str
     dataset: str
     title: str
-    projector: str
+    item: str
     method: str
+    styles: dict[str, tuple[str, str]] = field(default_factory=dict, hash=False)
+    large: bool = False
+    n_seeds: int = N_SEEDS
     note: str = ""
-
-    @property
-    def raw(self) -> SpatialScheme:
-        """The scheme without optimization."""
-        return SpatialScheme(self.projector, selector="random")
-
-    @property
-    def optimized(self) -> SpatialScheme:
-        """The scheme with the optimizer of Alg. 12."""
-        return SpatialScheme(self.projector, selector="random", optimizer="alg12")
 
     @property
     def published_ratio(self) -> float | None:
@@ -62,185 +69,317 @@ class UciFigure:
         return published(self.item).value if self.item in published_ids() else None
 
 
-UCI_FIGURES = (
-    UciFigure("costa2018:fig5.12", "uci/ionosphere", "Ionosphere", "mds", "MDS"),
-    UciFigure("costa2018:fig5.13", "uci/iris", "Iris", "isomap", "Isomap"),
-    UciFigure("costa2018:fig5.14", "uci/seeds", "Seeds", "lle", "LLE"),
-    UciFigure("costa2018:fig5.15", "uci/wine", "Wine", "force", "Force"),
-    UciFigure("costa2018:fig5.16", "uci/page-blocks", "Page blocks", "pca", "PCA"),
-    UciFigure("costa2018:fig5.17", "uci/yeast", "Yeast", "tsne", "t-SNE"),
-    UciFigure(
-        "extra:uci-cloud",
+#: In the order of the figures; Cloud is in Table 5.3 and has none.
+UCI_TABLES = (
+    UciTable(
+        "uci/ionosphere",
+        "Ionosphere",
+        "costa2018:fig5.12",
+        "MDS",
+        {"good": (GREEN, "circle"), "bad": (BLUE, "circle")},
+    ),
+    UciTable(
+        "uci/iris",
+        "Iris",
+        "costa2018:fig5.13",
+        "Isomap",
+        {
+            "setosa": (BLUE, "circle"),
+            "versicolor": (GREEN, "circle"),
+            "virginica": (VERMILLION, "circle"),
+        },
+    ),
+    UciTable(
+        "uci/seeds",
+        "Seeds",
+        "costa2018:fig5.14",
+        "LLE",
+        {
+            "Kama": (BLUE, "circle"),
+            "Rosa": (GREEN, "circle"),
+            "Canadian": (VERMILLION, "circle"),
+        },
+    ),
+    UciTable(
+        "uci/wine",
+        "Wine",
+        "costa2018:fig5.15",
+        "Force",
+        {
+            "cultivar 1": (BLUE, "circle"),
+            "cultivar 2": (GREEN, "circle"),
+            "cultivar 3": (VERMILLION, "circle"),
+        },
+    ),
+    UciTable(
+        "uci/page-blocks",
+        "Page blocks",
+        "costa2018:fig5.16",
+        "PCA",
+        {
+            "text": (BLUE, "circle"),
+            "horizontal line": (SKY, "triangle-up"),
+            "picture": (GREEN, "diamond"),
+            "vertical line": (PURPLE, "square"),
+            "graphic": (VERMILLION, "diamond"),
+        },
+        large=True,
+        n_seeds=1,
+    ),
+    UciTable(
+        "uci/yeast",
+        "Yeast",
+        "costa2018:fig5.17",
+        "t-SNE",
+        {
+            "CYT": (BLUE, "circle"),
+            "NUC": (GREY, "circle"),
+            "MIT": (ORANGE, "circle"),
+            "ME3": (_OLIVE, "diamond"),
+            "ME2": (VERMILLION, "diamond"),
+            "ME1": (_VIOLET, "diamond"),
+            "EXC": (GREEN, "triangle-up"),
+            "VAC": (_BROWN, "square"),
+            "POX": (PURPLE, "square"),
+            "ERL": (SKY, "triangle-up"),
+        },
+        large=True,
+    ),
+    UciTable(
         "uci/cloud",
         "Cloud",
-        "lle",
+        "extra:uci-cloud",
         "LLE",
-        "Not a figure of the thesis, whose Table 5.3 reports a change for this table with LLE.",
+        large=True,
+        note="Not a figure of the thesis, whose Table 5.3 has a change for this table with LLE.",
     ),
 )
 
-#: What every caption of these figures has to say.
-ONE_STEP = (
-    "One-step projection, not the two-step RBFP of the thesis, and control points are a seeded "
-    "random sample of 3 %, not chosen by ROLS: the ratios show the effect of the optimizer, "
-    "they do not repeat the published experiment."
+#: What every caption of these figures has to say of the method.
+TWO_STEPS = (
+    "Two steps: the seed projector sees half of the rows, ROLS chooses 3 % of all as control "
+    "points, RBFP places the others around them; the optimizer is Alg. 12."
 )
 
 
-def uci_runs(figures: Iterable[UciFigure], *, seed: int = 0) -> list[SchemeRun]:
-    """List the runs of figures: raw and optimized, on data as they are and standardised.
+def scheme_of(method: str) -> SpatialScheme:
+    """Make the optimized two-step scheme of Table 5.3 with a seed projector."""
+    return SpatialScheme(PROJECTORS[method], selector="rols", two_step="rbfp", optimizer="alg12")
+
+
+def planned_runs(profile: str, seed: int) -> list[BeforeAfterRun]:
+    """List the runs that the notebook reads for its default parameters, on the tables found."""
+    absent = absent_tables([table.dataset for table in UCI_TABLES])
+    found = [table for table in UCI_TABLES if table.dataset not in absent]
+    return uci_runs(found, profile, seed=seed)
+
+
+def uci_runs(
+    tables: Iterable[UciTable],
+    profile: str,
+    *,
+    seed: int = 0,
+    items: Sequence[str] | None = None,
+) -> list[BeforeAfterRun]:
+    """List the runs of Table 5.3 and its figures, on data as they are and standardised.
+
+    The quick profile runs large tables with the projector of their figure only, on data as
+    they are, and everything from one seed.
 
     Parameters
     ----------
-    figures : iterable of UciFigure
+    tables : iterable of UciTable
         Those whose data are there.
+    profile : {"quick", "full"}
+        How much to run.
     seed : int
-        Seed of the control points and of the projectors that take one.
+        The first seed; one of the subset, the control points and the projector.
+    items : sequence of str, optional
+        Ids; without that of Table 5.3 a figure needs its own projector and the first seed only.
 
     Returns
     -------
-    list of SchemeRun
+    list of BeforeAfterRun
     """
-    return [
-        SchemeRun(figure.dataset, scheme, ratio=RATIO, seed=seed, standardize=standardize)
-        for figure in figures
-        for standardize in (False, True)
-        for scheme in (figure.raw, figure.optimized)
+    runs = []
+    for table in tables:
+        only_figure = items is not None and TABLE_5_3 not in items
+        small = profile == "quick" and table.large
+        methods = [table.method] if only_figure or small else list(PROJECTORS)
+        n_seeds = 1 if only_figure or profile == "quick" else table.n_seeds
+        runs += [
+            BeforeAfterRun(
+                table.dataset,
+                scheme_of(method),
+                ratio=RATIO,
+                seed=seed + further,
+                standardize=standardize,
+            )
+            for standardize in ((False,) if small else (False, True))
+            for method in methods
+            for further in range(n_seeds)
+        ]
+    return runs
+
+
+def finished(
+    results: pd.DataFrame, table: UciTable, method: str | None = None
+) -> list[dict[Any, Any]]:
+    """Find the finished runs of a table with a seed projector, by default its figure's.
+
+    Data as they are come first, and the first seed.
+    """
+    rows = results[
+        (results["status"] == "done")
+        & (results["dataset"] == table.dataset)
+        & (results["scheme"] == scheme_name(scheme_of(method or table.method)))
     ]
+    return rows.sort_values(["standardize", "seed"]).to_dict("records")
 
 
-def uci_panels(table: pd.DataFrame, figure: UciFigure, store: ResultStore) -> list[Panel]:
+def uci_panels(results: pd.DataFrame, table: UciTable, store: ResultStore) -> list[Panel]:
     """Read the embeddings of a figure: raw beside optimized, data as they are above standardised.
 
     Parameters
     ----------
-    table : DataFrame
+    results : DataFrame
         From :func:`workbench.experiments.grid.run_grid`.
-    figure : UciFigure
-        The figure.
+    table : UciTable
+        The table.
     store : ResultStore
         Where the grid kept its results.
 
     Returns
     -------
     list of Panel
-        Only those whose run is finished.
+        From the first seed, and only those whose run is finished.
     """
     panels = []
-    for row in _finished(table, figure, figure.optimized):
+    for row in _first_seeds(results, table):
         arrays = store.arrays(row["key"])
         control = arrays["control_points"]
         panels += [
-            Panel(f"{figure.method}, {_data(row)}", arrays["projected"], control),
-            Panel(f"optimized, {_data(row)}", arrays["embedding"], control),
+            Panel(f"2-step ROLS, {data_name(row)}", arrays["projected"], control),
+            Panel("optimized", arrays["embedding"], control),
         ]
     return panels
 
 
-def uci_table(table: pd.DataFrame, figures: Iterable[UciFigure]) -> pd.DataFrame:
-    """Compare embeddings of tables before and after optimization.
+def uci_quality(results: pd.DataFrame, table: UciTable) -> pd.DataFrame:
+    """Compare the embeddings of a figure before and after optimization.
 
     Parameters
     ----------
-    table : DataFrame
+    results : DataFrame
         From :func:`workbench.experiments.grid.run_grid`.
-    figures : iterable of UciFigure
-        The rows, two for each.
+    table : UciTable
+        The table.
 
     Returns
     -------
     DataFrame
-        Stress ratio by Eq. 4.1, the published one, the scale-normalised one, and error and
-        neighbourhood quality before and after.
+        One row for data as they are and one for standardised data, first seed: stress by
+        both formulas, error, and how neighbourhoods are kept.
     """
-    rows: dict[str, dict[tuple[str, str], Any]] = {}
-    for figure in figures:
-        raw = {row["standardize"]: row for row in _finished(table, figure, figure.raw)}
-        for row in _finished(table, figure, figure.optimized):
-            rows[f"{figure.title}, {figure.method}, {_data(row)}"] = {
-                ("samples", "all"): int(row["n_samples"]),
-                ("samples", "control"): int(row["n_control_points"]),
-                ("stress, after / before", "Eq. 4.1"): row["stress_ratio"],
-                ("stress, after / before", "published"): figure.published_ratio,
-                ("stress, after / before", "scale-normalised"): row[
-                    "scale_normalized_stress_ratio"
-                ],
-                ("error", "before"): raw.get(row["standardize"], {}).get("error"),
-                ("error", "after"): row["error"],
-                ("trustworthiness", "before"): row["projected_trustworthiness"],
-                ("trustworthiness", "after"): row["trustworthiness"],
-                ("continuity", "before"): row["projected_continuity"],
-                ("continuity", "after"): row["continuity"],
-                ("neighbours kept", "before"): row["projected_neighborhood_preservation"],
-                ("neighbours kept", "after"): row["neighborhood_preservation"],
-            }
-    result = pd.DataFrame.from_dict(rows, orient="index")
+    rows: dict[str, dict[tuple[str, str], float]] = {}
+    for row in _first_seeds(results, table):
+        values = rows[data_name(row)] = {}
+        for title, column in _QUALITY.items():
+            values[title, "before"] = row[f"projected_{column}"]
+            values[title, "after"] = row[column]
+    frame = pd.DataFrame.from_dict(rows, orient="index")
     if rows:
-        result.columns = pd.MultiIndex.from_tuples(list(next(iter(rows.values()))))
-    result.index.name = "table, projector, data"
-    return result
+        frame.columns = pd.MultiIndex.from_tuples(list(next(iter(rows.values()))))
+    frame.index.name = table.title
+    return frame
 
 
-def uci_ratios(table: pd.DataFrame, figure: UciFigure) -> dict[str, float]:
+_QUALITY = {
+    "stress, Eq. 4.1": "stress",
+    "stress, scale-normalised": "scale_normalized_stress",
+    "error": "error",
+    "trustworthiness": "trustworthiness",
+    "continuity": "continuity",
+    "neighbours kept": "neighborhood_preservation",
+}
+
+
+def uci_ratios(results: pd.DataFrame, table: UciTable) -> dict[str, float]:
     """Give the stress ratios (Eq. 4.1) of a figure by what they were computed on.
 
     Data whose projection had no stress have none.
     """
-    rows = _finished(table, figure, figure.optimized)
     return {
-        f"one step, {_data(row)}": row["stress_ratio"]
-        for row in rows
+        data_name(row): row["stress_ratio"]
+        for row in _first_seeds(results, table)
         if pd.notna(row["stress_ratio"])
     }
 
 
-def uci_caption(table: pd.DataFrame, figure: UciFigure) -> str:
+def uci_caption(results: pd.DataFrame, table: UciTable) -> str:
     """Write the caption of a figure: what was done to how many rows, and the ratios.
 
     Parameters
     ----------
-    table : DataFrame
+    results : DataFrame
         From :func:`workbench.experiments.grid.run_grid`.
-    figure : UciFigure
-        The figure.
+    table : UciTable
+        The table.
 
     Returns
     -------
     str
     """
-    rows = _finished(table, figure, figure.optimized)
+    rows = _first_seeds(results, table)
     parts = []
     if rows:
         parts.append(
-            f"{figure.title}: {int(rows[0]['n_samples'])} rows, "
-            f"{int(rows[0]['n_control_points'])} control points (crosses), projected by "
-            f"{figure.method}."
+            f"{table.title}: {int(rows[0]['n_samples'])} rows, "
+            f"{int(rows[0]['n_control_points'])} control points (crosses), seed projector "
+            f"{table.method}; left before, right after optimization."
         )
-        ratios = ", ".join(
-            f"{'none' if pd.isna(row['stress_ratio']) else format(row['stress_ratio'], '.2f')} "
-            f"on {_data(row)}"
-            for row in rows
-        )
-        parts.append(f"Stress (Eq. 4.1) after / before optimization: {ratios}.")
-    remark = published(figure.item).note if figure.item in published_ids() else ""
+        ratios = "; ".join(f"{data_name(row)} {_ratios(row)}" for row in rows)
+        parts.append(f"Stress after / before by Eq. 4.1 (scale-normalised): {ratios}.")
+        if table.published_ratio is not None:
+            parts.append(f"Published: {table.published_ratio:.2f}, scaling of the data not stated.")
+    remark = published(table.item).note if table.item in published_ids() else ""
     parts += [
-        ONE_STEP,
-        figure.note,
+        TWO_STEPS,
+        table.note,
         remark,
-        describe_failures(table[table["dataset"] == figure.dataset]),
+        describe_failures(results[results["dataset"] == table.dataset]),
     ]
     return " ".join(part for part in parts if part)
 
 
-def _finished(table: pd.DataFrame, figure: UciFigure, scheme: Scheme) -> list[dict[Any, Any]]:
-    """Find the finished runs of a scheme on a figure's table, unscaled data first."""
-    rows = table[
-        (table["status"] == "done")
-        & (table["dataset"] == figure.dataset)
-        & (table["scheme"] == scheme_name(scheme))
+def uci_alt(results: pd.DataFrame, table: UciTable) -> str:
+    """Say what a reader who does not see the figure should know."""
+    parts = [
+        f"Scatter plots of {table.title} projected by RBFP from {table.method} seeds, before "
+        "optimization on the left and after it on the right."
     ]
-    return rows.sort_values("standardize").to_dict("records")
+    for row in _first_seeds(results, table):
+        parts.append(
+            f"With {data_name(row)} the mean error falls from {row['projected_error']:.3g} to "
+            f"{row['error']:.3g}, and stress by Eq. 4.1 goes from {row['projected_stress']:.3g} to "
+            f"{row['stress']:.3g}."
+        )
+    return " ".join(parts)
 
 
-def _data(row: dict[Any, Any]) -> str:
+def data_name(row: dict[Any, Any]) -> str:
+    """Say what a run was computed on."""
     return "standardised data" if row["standardize"] else "data as they are"
+
+
+def _first_seeds(results: pd.DataFrame, table: UciTable) -> list[dict[Any, Any]]:
+    first: dict[bool, dict[Any, Any]] = {}
+    for row in finished(results, table):
+        first.setdefault(bool(row["standardize"]), row)
+    return list(first.values())
+
+
+def _ratios(row: dict[Any, Any]) -> str:
+    names = ("stress_ratio", "scale_normalized_stress_ratio")
+    one, other = ("none" if pd.isna(row[name]) else f"{row[name]:.2g}" for name in names)
+    return f"{one} ({other})"
