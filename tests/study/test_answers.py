@@ -78,6 +78,13 @@ def test_a_wrong_value_is_named_with_its_row(column, value, wanted):
     assert wanted in str(caught.value)
 
 
+def test_whole_numbers_may_be_written_with_a_point():
+    """Programs export a column of whole numbers with gaps as 7.0."""
+    frame = table(GOOD).astype({"rating": object, "position": object})
+    frame[["rating", "position"]] = "7.0", ""
+    assert check_answers(frame)[["rating", "position"]].iloc[0].tolist() == [7, 0]
+
+
 def test_two_answers_of_one_participant_are_refused():
     """A second rating of a stimulus would count one participant twice."""
     with pytest.raises(
@@ -97,9 +104,10 @@ def test_a_stimulus_is_the_same_for_all():
     [
         (pd.DataFrame({"rating": [1]}), "no column participant, test_case, motion, stimulus"),
         (table(), "found no answer"),
+        ([GOOD], "got list, want a DataFrame"),
         (table(GOOD)[["rating", *COLUMNS]], "two columns of one name"),
     ],
-    ids=["missing columns", "no rows", "doubled column"],
+    ids=["missing columns", "no rows", "no table", "doubled column"],
 )
 def test_a_table_of_another_form_is_refused(frame, message):
     """What is no table of answers is not taken for one."""

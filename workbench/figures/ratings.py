@@ -106,7 +106,7 @@ def rating_figure(ratings: pd.DataFrame) -> go.Figure:
 
 
 def difference_figure(sources: Mapping[str, Sequence[PairedComparison]]) -> go.Figure:
-    """Draw mean differences of ratings with their intervals, pair by pair.
+    """Draw mean differences of ratings, in points, with their intervals, pair by pair.
 
     Parameters
     ----------
@@ -165,7 +165,7 @@ def difference_figure(sources: Mapping[str, Sequence[PairedComparison]]) -> go.F
     ends = [end for found in sources.values() for c in found for end in (c.low, c.high)]
     low, high = np.nanmin([*ends, _AT_LEAST[0]]), np.nanmax([*ends, _AT_LEAST[1]])
     figure.update_xaxes(
-        title_text="mean difference of ratings, in points",
+        title_text="mean rating difference",
         range=[low - 0.1, high + 0.1],
         zerolinecolor=GREY,
         zerolinewidth=1.5,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from numbers import Integral, Real
@@ -110,6 +111,8 @@ def check_answers(frame: pd.DataFrame, source: str = "answers") -> pd.DataFrame:
     >>> check_answers(frame)[["participant", "rating", "position"]].to_dict("records")
     [{'participant': '1', 'rating': 7, 'position': 0}]
     """
+    if not hasattr(frame, "columns"):
+        raise DataError(f"{source}: got {type(frame).__name__}, want a DataFrame of answers")
     check_columns(frame.columns, source)
     if frame.columns.duplicated().any():
         raise DataError(f"{source}: got two columns of one name")
@@ -194,8 +197,8 @@ def check_rating(value: object, here: str = "answer") -> int:
 
     Examples
     --------
-    >>> check_rating("7"), check_rating(7.0)
-    (7, 7)
+    >>> check_rating("7"), check_rating(7.0), check_rating("7.0")
+    (7, 7, 7)
     """
     rating = _whole(value)
     if rating is None or not LOWEST_RATING <= rating <= HIGHEST_RATING:
@@ -290,7 +293,8 @@ def _text(value: object, name: str, here: str) -> str:
 def _whole(value: object) -> int | None:
     """Read a whole number, however a file's format stored it, or tell by None that it is none."""
     if isinstance(value, str):
-        text = value.strip()
+        # Programs write the whole numbers of a column with gaps as 7.0.
+        text = re.sub(r"\.0+$", "", value.strip())
         return int(text) if text.isascii() and text.isdigit() and len(text) < 10 else None
     if isinstance(value, bool):
         return None

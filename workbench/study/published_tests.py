@@ -152,7 +152,8 @@ def _too_long_side(table: PrintedTable, a: str, b: str, c: str, n: int) -> list[
     return [
         f"p = {sides[2][1]:g} implies that {difference_label(a, c)} has a standard deviation of at "
         f"least {ac[0]:.2f}, but by their p values those of {difference_label(a, b)} and "
-        f"{difference_label(b, c)} are at most {ab[1]:.2f} and {bc[1]:.2f}, together less"
+        f"{difference_label(b, c)} are at most {ab[1]:.2f} and {bc[1]:.2f}, "
+        "whose sum it cannot exceed"
     ]
 
 

@@ -36,8 +36,10 @@ def figure_caption(result: Result, name: str = "") -> str:
     place = published(result.rated.table_id).place
     implied = (
         f"the mean differences printed in {place} with the 95 % intervals that their p values "
-        f"imply for {N_PARTICIPANTS} participants (open marker: equal means, no interval)"
+        f"imply for {N_PARTICIPANTS} participants"
     )
+    if any(math.isnan(comparison.low) for comparison in result.theirs):
+        implied += " (open marker: equal means, no interval)"
     if result.ratings is None:
         return f"{about} {result.missing} Shown are {implied}."
     if name:

@@ -65,7 +65,6 @@ def comparisons_table(comparisons: Sequence[PairedComparison]) -> pd.DataFrame:
     return _frame(
         {
             c.label: {
-                "participants": c.n,
                 "mean difference": c.mean_difference,
                 "95 %, low": _known(c.low),
                 "95 %, high": _known(c.high),
@@ -74,6 +73,7 @@ def comparisons_table(comparisons: Sequence[PairedComparison]) -> pd.DataFrame:
                 "p, Holm": p_text(c.p_holm),
                 "Cohen's d_z": _known(c.effect_size),
                 "Hedges' g_z": _known(c.corrected_effect_size),
+                "participants": c.n,
             }
             for c in comparisons
         }
