@@ -32,7 +32,7 @@ def figures(result: Result) -> dict[str, go.Figure]:
 
 def figure_caption(result: Result, name: str = "") -> str:
     """Say what a figure of :func:`figures` shows."""
-    about = f"Comparison of {result.rated.title} ({result.rated.setting})."
+    about = f"Comparison of {result.rated.title} (in the thesis: {result.rated.setting})."
     place = published(result.rated.table_id).place
     implied = (
         f"the mean differences printed in {place} with the 95 % intervals that their p values "
