@@ -13,16 +13,15 @@ from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.keyframes import KeyframeRun
 from workbench.reproduction.claims import Evidence
 from workbench.reproduction.costa2018.results import evidence_of
+from workbench.reproduction.halit2010 import contacts
 from workbench.reproduction.halit2010.motions import (
     CALM,
     DYNAMIC,
-    PARAMETERS,
     STRETCHING,
     has_skeleton,
     kind_of_motion,
     motions,
     recommended,
-    saliency_parameters,
     title_of,
     values_of,
 )
@@ -38,10 +37,6 @@ MOTIONS = (*_WORDS, "Boxing")
 #: Names of the two representations, and the curves that keyframes are selected from.
 REPRESENTATIONS = {"Euler angles": "angles", "Body coordinates": "positions"}
 _ANGLES = [("", "angles")]
-
-_SIGMAS = {"quick": (1, 2, 3, 5, 7, 10, 15), "full": tuple(range(1, 16))}
-#: σ of the runs with contact handling, fewer because each is compared with all of the others.
-_CONTACT_SIGMAS = {"quick": (2, 5, 10), "full": (1, 2, 3, 5, 7, 10)}
 
 
 def planned_runs(
@@ -66,13 +61,11 @@ def planned_runs(
     list of Run
     """
     names = list(motions(profile) if clips is None else clips)
-    runs = [method_run(clip, method) for clip in names for method in METHODS]
+    runs: list[Run] = [method_run(clip, method) for clip in names for method in METHODS]
     for clip in stand_ins(names).values():
         if has_skeleton(clip):
             runs += [method_run(clip, method, "positions") for method in METHODS]
-    for clip in filter(has_skeleton, names):
-        runs += contact_runs(clip, _SIGMAS[profile], contacts=False)
-        runs += contact_runs(clip, _CONTACT_SIGMAS[profile], contacts=True)
+    runs += contacts.planned_runs(filter(has_skeleton, names), profile)
     return list(dict.fromkeys(runs))
 
 
@@ -82,15 +75,6 @@ def method_run(clip: str, method: str, curves: str = "angles") -> KeyframeRun:
     if method == "Saliency":
         return KeyframeRun(clip, parameters=parameters, curves=curves)
     return KeyframeRun(clip, METHODS[method], counted_by=parameters, curves=curves)
-
-
-def contact_runs(clip: str, sigmas: Iterable[int], *, contacts: bool) -> list[KeyframeRun]:
-    """Give the runs of the saliency method over σ, with or without contact handling."""
-    _, k = PARAMETERS[kind_of_motion(clip)]
-    return [
-        KeyframeRun(clip, parameters=saliency_parameters(sigma, k, contacts=contacts))
-        for sigma in sigmas
-    ]
 
 
 def stand_ins(clips: Iterable[str]) -> dict[str, str]:
@@ -290,44 +274,3 @@ def difference_table(table: pd.DataFrame) -> pd.DataFrame:
 def interval(low: float, high: float, digits: int = 2) -> str:
     """Write an interval: "0.10 to 0.25"."""
     return f"{low:.{digits}f} to {high:.{digits}f}".replace("-", "\N{MINUS SIGN}")
-
-
-def contact_ratios(table: pd.DataFrame) -> pd.Series:
-    """Compare how many keyframes the same error needs with and without contact handling.
-
-    For each σ, the keyframes that contact handling chooses, over those that the method without
-    it would need for the same error (Eq. 4.1), read off the line through its counts and
-    errors over σ, both logarithmic. What lies outside that line's range is left out.
-
-    Parameters
-    ----------
-    table : DataFrame
-        From :func:`workbench.experiments.grid.run_grid`.
-
-    Returns
-    -------
-    Series
-        Geometric mean over σ, by motion.
-    """
-    ratios = {}
-    for clip in dict.fromkeys(table.loc[table["selector"].notna(), "dataset"]):
-        with_handling = _counts_and_errors(table, clip, contacts=True)
-        without = _counts_and_errors(table, clip, contacts=False)
-        if len(with_handling) and len(without) > 1:
-            # Errors that rise with the count are no line to read off: the lower ones count.
-            order = np.argsort(without[:, 0], kind="stable")
-            counts = np.log(without[order, 0])
-            errors = np.minimum.accumulate(np.log(without[order, 1]))
-            wanted = np.log(with_handling[:, 1])
-            inside = (wanted >= errors[-1]) & (wanted <= errors[0])
-            if inside.any():
-                needed = np.interp(-wanted[inside], -errors, counts)
-                ratios[clip] = float(np.exp(np.mean(np.log(with_handling[inside, 0]) - needed)))
-    return pd.Series(ratios, dtype=float)
-
-
-def _counts_and_errors(table: pd.DataFrame, clip: str, *, contacts: bool) -> np.ndarray:
-    runs = contact_runs(clip, _SIGMAS["full"], contacts=contacts)
-    columns = [values_of(table, runs, name) for name in ("n_control_points", "body_error")]
-    found = np.column_stack(columns)
-    return found[np.all(found > 0, axis=1)]

@@ -1,0 +1,353 @@
+"""Readings of the saliency method, and selectors at the counts that it chooses."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from itertools import product
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy.stats import rankdata
+
+from workbench.errors import WorkbenchError
+from workbench.experiments.bootstrap import Estimate, bootstrap
+from workbench.experiments.runs.base import Run
+from workbench.experiments.runs.keyframes import KeyframeRun
+from workbench.experiments.runs.saliency_readings import (
+    NORMALIZATIONS,
+    THRESHOLDS,
+    SaliencyReadingRun,
+)
+from workbench.mocap.curve_saliency import CURVATURES
+from workbench.reproduction.halit2010.comparison import interval
+from workbench.reproduction.halit2010.motions import (
+    STRETCHING,
+    has_skeleton,
+    motions,
+    recommended,
+    values_of,
+)
+from workbench.reproduction.published import published
+
+#: A bundled clip, for readings where the thesis's own is not at hand.
+_BUNDLED = "cmu/01_01"
+
+#: What is read in several ways, and how the columns of results name it.
+CHOICES: dict[str, dict[str, Any]] = {
+    "cluster_width": {"4σ": 4.0, "2σ": 2.0},
+    "curvature": dict(zip(("D′", "D"), CURVATURES, strict=True)),
+    "unit_variance": {"unit variance": True, "zero mean": False},
+    "normalization": dict(zip(("each curve", "all curves", "none"), NORMALIZATIONS, strict=True)),
+    "threshold": dict(zip(("own curve", "all curves", "summed"), THRESHOLDS, strict=True)),
+}
+_TITLES = {
+    "cluster_width": "longest cluster",
+    "curvature": "curvature divides by",
+    "unit_variance": "columns",
+    "normalization": "maps stretched over",
+    "threshold": "threshold",
+}
+
+#: Selectors by the names they are shown under. What is exact for joint angles has the highest
+#: PSNR that there is, what is exact for D_q the lowest D_q error.
+SELECTORS = {
+    "Saliency": "saliency",
+    "Uniform": "uniform",
+    "Chord": "chord",
+    "SCS": "scs",
+    "PB": "pb",
+    "Exact, D_q": "optimal",
+    "Exact, angles": "exact",
+}
+
+
+def planned_runs(
+    profile: str,
+    seed: int = 0,  # noqa: ARG001 - plans of all notebooks are asked alike
+    *,
+    clips: Iterable[str] | None = None,
+) -> list[Run]:
+    """List the readings of one motion, and the selectors on all.
+
+    Parameters
+    ----------
+    profile : {"quick", "full"}
+        Which motions.
+    seed : int
+        Without effect: nothing is random here.
+    clips : iterable of str, optional
+        Names of motions, in place of the profile's.
+
+    Returns
+    -------
+    list of Run
+    """
+    names = list(motions(profile) if clips is None else clips)
+    read = STRETCHING if STRETCHING in names else _BUNDLED
+    runs: list[Run] = [
+        SaliencyReadingRun(read, **dict(zip(CHOICES, values, strict=True)))
+        for values in product(*(choices.values() for choices in CHOICES.values()))
+    ]
+    for clip in names:
+        runs += [selector_run(clip, name) for name in selectors_for(clip)]
+    return runs
+
+
+def selectors_for(clip: str) -> list[str]:
+    """Choose the selectors that a motion allows: D_q needs its poses."""
+    return [name for name in SELECTORS if name != "Exact, D_q" or has_skeleton(clip)]
+
+
+def selector_run(clip: str, name: str) -> KeyframeRun:
+    """Give the run of a selector, with as many keyframes as saliency chooses."""
+    parameters = recommended(clip)
+    if name == "Saliency":
+        return KeyframeRun(clip, parameters=parameters)
+    return KeyframeRun(clip, SELECTORS[name], counted_by=parameters)
+
+
+def reading_table(table: pd.DataFrame) -> pd.DataFrame:
+    """List the readings of the method, the one nearest to the published values first.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+
+    Returns
+    -------
+    DataFrame
+        What is read how, the number of keyframes and the PSNR in dB. On the thesis's clip also
+        the differences to the published values; the nearest reading is the one with the least
+        sum of the two, in units of 10 % and 1.5 dB. Elsewhere in the order of the runs.
+    """
+    rows = _reading_rows(table)
+    shown = pd.DataFrame(
+        {
+            title: [_word(name, value) for value in rows[name]]
+            for name, title in _TITLES.items()
+            if name in rows
+        }
+    )
+    shown["keyframes"] = rows["n_keyframes"].astype(int).to_numpy()
+    shown["PSNR, dB"] = rows["psnr"].astype(float).to_numpy()
+    if reading_clip(table) == STRETCHING:
+        count, ratio = published_target()
+        shown["keyframes − published"] = shown["keyframes"] - round(count)
+        shown["PSNR − published"] = shown["PSNR, dB"] - ratio
+        far = shown["keyframes − published"].abs() / (0.1 * count)
+        far += shown["PSNR − published"].abs() / 1.5
+        shown = shown.iloc[np.argsort(far.to_numpy(), kind="stable")]
+    shown.index = pd.RangeIndex(1, len(shown) + 1, name="reading")
+    return shown
+
+
+def choice_table(table: pd.DataFrame) -> pd.DataFrame:
+    """Tell what each choice does, whatever the others are.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+
+    Returns
+    -------
+    DataFrame
+        For each choice the number of readings, and the median and range of the keyframes and
+        of the PSNR.
+    """
+    rows = _reading_rows(table)
+    result: dict[str, dict[str, Any]] = {}
+    for name, words in CHOICES.items():
+        for word, value in words.items():
+            chosen = rows[rows[name] == value]
+            counts, ratios = chosen["n_keyframes"].astype(float), chosen["psnr"].astype(float)
+            if len(chosen):
+                result[f"{_TITLES[name]}: {word}"] = {
+                    "readings": len(chosen),
+                    "keyframes, median": counts.median(),
+                    "keyframes, range": interval(counts.min(), counts.max(), 0),
+                    "PSNR, median": ratios.median(),
+                    "PSNR, range": interval(ratios.min(), ratios.max(), 1),
+                }
+    return pd.DataFrame.from_dict(result, orient="index").rename_axis("choice")
+
+
+def reading_points(table: pd.DataFrame) -> dict[str, list[tuple[float, float, str]]]:
+    """Arrange the readings for a chart of keyframes and PSNR.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+
+    Returns
+    -------
+    dict of str to list of (float, float, str)
+        For each cluster limit and threshold the keyframes, the PSNR, and what else was chosen.
+    """
+    groups: dict[str, list[tuple[float, float, str]]] = {}
+    for row in _reading_rows(table).to_dict("records"):
+        words = {name: _word(name, row[name]) for name in CHOICES}
+        name = f"{words['cluster_width']}, {words['threshold']}"
+        others = ", ".join(words[n] for n in ("curvature", "unit_variance", "normalization"))
+        groups.setdefault(name, []).append((row["n_keyframes"], row["psnr"], others))
+    return groups
+
+
+def default_reading(table: pd.DataFrame) -> tuple[int, float] | None:
+    """Give the keyframes and the PSNR of the library's reading; None if it is not finished."""
+    rows = _reading_rows(table)
+    for name, words in CHOICES.items():
+        rows = rows[rows[name] == next(iter(words.values()))]
+    if rows.empty:
+        return None
+    return int(rows["n_keyframes"].iloc[0]), float(rows["psnr"].iloc[0])
+
+
+def published_target() -> tuple[float, float]:
+    """Give the keyframes and the PSNR that are published for "stretching"."""
+    values = published("halit2010:tab4.2").table()["Stretching"]
+    return float(values["keyframes"]), float(values["Saliency"])
+
+
+def reading_clip(table: pd.DataFrame) -> str:
+    """Tell which motion was read.
+
+    Raises
+    ------
+    WorkbenchError
+        If no reading has finished.
+    """
+    return str(_reading_rows(table)["dataset"].iloc[0])
+
+
+def _reading_rows(table: pd.DataFrame) -> pd.DataFrame:
+    if "threshold" in table:
+        rows = table[(table["status"] == "done") & table["threshold"].notna()]
+        if len(rows):
+            return rows
+    raise WorkbenchError("no reading of the saliency method has finished")
+
+
+def _word(name: str, value: Any) -> str:
+    return next(word for word, known in CHOICES[name].items() if known == value)
+
+
+def selector_values(table: pd.DataFrame, column: str) -> pd.DataFrame:
+    """Arrange a value of the selectors by motion, at the counts that saliency chooses.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+    column : str
+        Such as ``"psnr"``, or ``"error"`` for D_q.
+
+    Returns
+    -------
+    DataFrame of shape (n_motions, n_selectors)
+        Not a number where there is no such value.
+    """
+    if "selector" not in table:
+        return pd.DataFrame(columns=list(SELECTORS), dtype=float)
+    clips = list(dict.fromkeys(table.loc[table["selector"].notna(), "dataset"]))
+    values = {
+        name: values_of(table, [selector_run(clip, name) for clip in clips], column)
+        for name in SELECTORS
+    }
+    return pd.DataFrame(values, index=pd.Index(clips, name="motion"), dtype=float)
+
+
+def against_saliency(table: pd.DataFrame, column: str) -> dict[str, pd.Series]:
+    """Compare each selector with saliency, motion by motion.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+    column : {"psnr", "error"}
+        PSNR gives differences in dB, D_q errors give ratios.
+
+    Returns
+    -------
+    dict of str to Series
+        For each other selector its value minus that of saliency, or over it, by motion.
+    """
+    values = selector_values(table, column)
+    found = {}
+    for name in list(SELECTORS)[1:]:
+        pair = values[[name, "Saliency"]].dropna()
+        if len(pair):
+            first, second = pair[name], pair["Saliency"]
+            found[name] = first - second if column == "psnr" else first / second
+    return found
+
+
+def median_estimates(values: Mapping[str, pd.Series]) -> dict[str, Estimate]:
+    """Estimate the median of each series, over motions."""
+    return {
+        name: bootstrap(series.to_numpy(float), lambda v: float(np.median(v)))
+        for name, series in values.items()
+    }
+
+
+def selector_table(table: pd.DataFrame) -> pd.DataFrame:
+    """Compare the selectors over all motions, at the counts that saliency chooses.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+
+    Returns
+    -------
+    DataFrame
+        For each selector, by PSNR and by D_q error: its mean rank (1 is best), the median
+        difference to saliency, or ratio, with its interval, and on how many motions it is
+        better than saliency.
+    """
+    rows: dict[str, dict[tuple[str, str], Any]] = {name: {} for name in SELECTORS}
+    for column, title, effect, sign in (
+        ("psnr", "PSNR", "minus saliency, dB", -1.0),
+        ("error", "D_q error", "over saliency", 1.0),
+    ):
+        complete = selector_values(table, column)
+        shown = complete.dropna(axis="columns", how="all").dropna()
+        if len(shown):
+            ranks = rankdata(sign * shown.to_numpy().round(9), axis=1).mean(axis=0)
+            for name, rank in zip(shown.columns, ranks, strict=True):
+                rows[name][title, "mean rank"] = float(rank)
+        compared = against_saliency(table, column)
+        for name, found in median_estimates(compared).items():
+            better = compared[name] > 0 if column == "psnr" else compared[name] < 1
+            rows[name][title, effect] = found.value
+            rows[name][title, "95 %"] = interval(found.low, found.high)
+            rows[name][title, "better on"] = f"{better.sum()} of {len(better)}"
+    result = pd.DataFrame.from_dict(rows, orient="index").rename_axis("selector")
+    return result.sort_index(axis="columns", level=0, sort_remaining=False, ascending=False)
+
+
+def stretching_table(table: pd.DataFrame) -> pd.DataFrame | None:
+    """Compare the selectors on the clip of the thesis; None if it is not at hand.
+
+    Returns
+    -------
+    DataFrame
+        PSNR of each selector in dB, and the published one of those that the thesis has.
+    """
+    values = selector_values(table, "psnr")
+    if STRETCHING not in values.index:
+        return None
+    theirs = published("halit2010:tab4.2").table()["Stretching"]
+    printed = {"Saliency": "Saliency", "Chord": "Curve simplification", "PB": "Frame decimation"}
+    rows = {}
+    for name, ours in values.loc[STRETCHING].dropna().items():
+        their = float(theirs[printed[str(name)]]) if name in printed else None
+        rows[name] = {
+            "PSNR, dB, ours": ours,
+            "published": their,
+            "difference": None if their is None else ours - their,
+        }
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("selector")
