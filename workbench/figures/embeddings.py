@@ -20,6 +20,8 @@ LEGEND_ONLY = {"x": [None], "y": [None], "mode": "markers"}
 
 #: Points of a panel above which drawing them as vectors makes a page slow.
 _MANY = 3000
+#: Control points of a panel above which their crosses are drawn smaller, to hide less.
+_CROWDED = 100
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,6 +113,7 @@ def _panel_traces(
     scatter = go.Scattergl if len(classes) > _MANY else go.Scatter
     is_control = np.zeros(len(classes), dtype=bool)
     is_control[panel.control_points] = True
+    cross_size = CROSS["size"] if len(panel.control_points) <= _CROWDED else 6
     dots: list[go.Scatter | go.Scattergl] = []
     crosses: list[go.Scatter | go.Scattergl] = []
     for name, (color, symbol) in styles.items():
@@ -128,7 +131,7 @@ def _panel_traces(
                 legendgroup=name,
                 showlegend=first and not control,
                 marker=(
-                    {**CROSS, "color": color}
+                    {**CROSS, "color": color, "size": cross_size}
                     if control
                     else {"symbol": symbol, "size": 5, "color": color, "opacity": 0.75}
                 ),
