@@ -115,8 +115,8 @@ def differences_caption(result: Result) -> str:
     disagree = [f"The printed p values contradict each other: {wrong[0]}."] if wrong else []
     parts = [
         f"Mean differences of ratings (1 to 10), comparison of {result.rated.title} "
-        f"(in the thesis: {result.rated.setting}), and p values of paired t tests, one-sided in the "
-        "direction of each difference.",
+        f"(in the thesis: {result.rated.setting}), and p values of paired t tests, one-sided "
+        "in the direction of each difference.",
         result.missing or f"Ours: {_participants(result.ours)} of the study file.",
         means,
         *disagree,
