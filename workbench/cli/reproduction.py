@@ -43,6 +43,9 @@ def reproduce(
         ),
     ] = None,
     seed: Seed = 0,
+    study: Annotated[
+        Path | None, typer.Option(help="Answers of a user study: CSV, Parquet or SQLite.")
+    ] = None,
     out: Annotated[Path, typer.Option(help="Folder for the report.")] = Path("reproduction"),
     json: Json = False,
 ) -> None:

@@ -83,6 +83,7 @@ def reproduce(
     scheduler: str | None = None,
     out: str | Path = "reproduction",
     seed: int = 0,
+    study: str | Path | None = None,
     progress: Callable[[str], None] = print_progress,
 ) -> ReproductionReport:
     """Run the notebooks that make figures and tables, and write the report.
@@ -107,6 +108,8 @@ def reproduce(
         Output folder; what is in it and not remade is kept.
     seed : int
         Seed of everything random.
+    study : path-like, optional
+        A file of answers of a user study, to be shown beside the published comparisons.
     progress : callable
         Called with one line at a time; by default they are printed on stderr.
 
@@ -132,6 +135,7 @@ def reproduce(
         scheduler=scheduler,
         out=out,
         seed=seed,
+        study=study,
         progress=progress,
     )
 
@@ -146,6 +150,7 @@ def reproduce_items(
     seed: int,
     progress: Callable[[str], None],
     scheduler: str | None = None,
+    study: str | Path | None = None,
 ) -> ReproductionReport:
     """Run the notebooks of given items, from a given folder; otherwise as :func:`reproduce`."""
     start = time.perf_counter()
@@ -172,6 +177,8 @@ def reproduce_items(
             "out": str(folder),
             "results": str(results),
             "items": None if name in whole else mine,
+            # The notebook runs in another folder than the one that the path may start from.
+            "study": None if study is None else str(Path(study).expanduser().resolve()),
         }
     errors = _run_notebooks(notebooks, folder, tasks, wanted, jobs=jobs, say=progress)
     notices = _write_images(folder, progress)
