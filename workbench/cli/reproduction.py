@@ -62,7 +62,15 @@ def reproduce(
         for row, item in zip(rows, items, strict=True):
             typer.echo(f"{row['id']:<20}  {row['state']:<10}  {item.title}")
         return
-    outcome = run(ids, profile=profile.value, jobs=jobs, scheduler=scheduler, out=out, seed=seed)
+    outcome = run(
+        ids,
+        profile=profile.value,
+        jobs=jobs,
+        scheduler=scheduler,
+        out=out,
+        seed=seed,
+        study=study,
+    )
     if json:
         report({"items": _describe(items, out)}, as_json=True)
     else:
