@@ -19,8 +19,16 @@ def test_points_are_where_they_were_given():
     assert (list(first.x), list(first.y)) == ([1, 2, 4], [8.0, 4.0, 2.0])
     assert (list(second.x), list(second.y)) == ([2, 3], [5.0, 3.0])
     assert (list(band.x), list(band.y)) == ([2, 3, 3, 2], [6.0, 3.5, 2.5, 4.0])
-    assert "2 %" in first.text
+    assert "2 %" in first.customdata
     assert first.name == "Slerp &amp; co"
+
+
+def test_labels_stand_beside_their_points():
+    """Only a curve with labels has text in the picture."""
+    curves = [Curve("a", [1, 2], [3, 4], labels=["1 %", "2 %"]), Curve("b", [1], [2])]
+    labelled, plain = trade_off(curves, x_title="", y_title="").data
+    assert list(labelled.text) == ["1 %", "2 %"]
+    assert ("text" in labelled.mode, "text" in plain.mode) == (True, False)
 
 
 def test_seven_curves_can_be_told_apart_without_colour():

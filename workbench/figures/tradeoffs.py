@@ -27,6 +27,8 @@ class Curve:
         Its points, from left to right.
     text : sequence of str, optional
         What is said of each point when it is pointed at.
+    labels : sequence of str, optional
+        What is written beside each point.
     low, high : sequence of float, optional
         Ends of an interval at each point, drawn as a band.
     """
@@ -35,6 +37,7 @@ class Curve:
     x: Sequence[float]
     y: Sequence[float]
     text: Sequence[str] = ()
+    labels: Sequence[str] = ()
     low: Sequence[float] = ()
     high: Sequence[float] = ()
 
@@ -99,13 +102,16 @@ def trade_off(
                 name=name,
                 x=list(curve.x),
                 y=list(curve.y),
-                text=list(curve.text) or None,
-                mode="lines+markers",
+                customdata=list(curve.text) or None,
+                text=list(curve.labels) or None,
+                textposition="top right",
+                textfont={"color": color, "size": 11},
+                mode="lines+markers+text" if len(curve.labels) else "lines+markers",
                 legendgroup=name,
                 line={"color": color, "width": 2, "dash": _DASHES[index % len(_DASHES)]},
                 marker={"symbol": _SYMBOLS[index % len(_SYMBOLS)], "size": 9, "color": color},
                 hovertemplate=f"{name}: %{{y:.3g}} at %{{x:.3g}}"
-                + ("<br>%{text}" if len(curve.text) else "")
+                + ("<br>%{customdata}" if len(curve.text) else "")
                 + "<extra></extra>",
             )
         )
