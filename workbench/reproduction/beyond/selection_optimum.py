@@ -7,7 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
-from workbench.experiments.bootstrap import bootstrap
+from workbench.experiments.bootstrap import Estimate, bootstrap
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.schemes import Scheme, SchemeRun
 from workbench.reproduction.claims import Evidence
@@ -113,6 +113,16 @@ def optimum_table(ratios: pd.DataFrame) -> pd.DataFrame:
         }
     result = pd.DataFrame.from_dict(rows, orient="index")
     return result.rename_axis("selector")
+
+
+def medians(ratios: pd.DataFrame) -> dict[str, Estimate]:
+    """Estimate the median ratio of each selector, over clips."""
+    found = {str(name): values.dropna().to_numpy(float) for name, values in ratios.items()}
+    return {
+        name: bootstrap(values, lambda v: float(np.median(v)))
+        for name, values in found.items()
+        if len(values)
+    }
 
 
 def greedy_gap(ratios: pd.DataFrame) -> Evidence:

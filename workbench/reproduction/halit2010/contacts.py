@@ -8,9 +8,14 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
+from workbench.experiments.bootstrap import bootstrap
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.keyframes import KeyframeRun
+from workbench.reproduction.claims import Evidence
+from workbench.reproduction.costa2018.results import evidence_of
 from workbench.reproduction.halit2010.motions import (
+    CALM,
+    DYNAMIC,
     PARAMETERS,
     kind_of_motion,
     saliency_parameters,
@@ -79,3 +84,24 @@ def _counts_and_errors(table: pd.DataFrame, clip: str, *, contacts: bool) -> NDA
     columns = [values_of(table, runs, name) for name in ("n_control_points", "body_error")]
     found = np.column_stack(columns)
     return found[np.all(found > 0, axis=1)]
+
+
+def evidence(ratios: pd.Series) -> Evidence:
+    """Estimate the median of :func:`contact_ratios` over motions."""
+    return evidence_of(ratios, lambda v: float(np.median(v)))
+
+
+def contact_table(ratios: pd.Series) -> pd.DataFrame:
+    """Summarize :func:`contact_ratios` for all, calm and dynamic motions."""
+    rows = {}
+    for kind in ("all", CALM, DYNAMIC):
+        chosen = ratios[[kind in ("all", kind_of_motion(str(name))) for name in ratios.index]]
+        if len(chosen):
+            found = bootstrap(chosen.to_numpy(float), lambda v: float(np.median(v)))
+            rows[kind] = {
+                "motions": len(chosen),
+                "with / without, median": found.value,
+                "95 %": f"{found.low:.2f} to {found.high:.2f}",
+                "fewer on": f"{(chosen < 1).sum()} of {len(chosen)}",
+            }
+    return pd.DataFrame.from_dict(rows, orient="index").rename_axis("kind")

@@ -85,12 +85,6 @@ def recommended(dataset: str) -> Parameters:
     return saliency_parameters(*PARAMETERS[kind_of_motion(dataset)])
 
 
-def value_of(table: pd.DataFrame, run: KeyframeRun, column: str) -> float | None:
-    """Find a value of a finished run; None if it is not finished or has no such value."""
-    values = values_of(table, [run], column)
-    return None if pd.isna(values[0]) else values[0]
-
-
 def values_of(table: pd.DataFrame, runs: Iterable[KeyframeRun], column: str) -> list[float]:
     """Find a value of runs, as floats; not a number where one is not finished or has none.
 
@@ -118,6 +112,18 @@ def values_of(table: pd.DataFrame, runs: Iterable[KeyframeRun], column: str) -> 
         found.get(tuple(run.specification()[name] or "" for name in names), float("nan"))
         for run in runs
     ]
+
+
+def short_titles(table: pd.DataFrame) -> dict[str, str]:
+    """Name motions by number and by the first words of the catalogue: "07_01, walk"."""
+    return {
+        str(
+            name
+        ): f"{str(name).split('/', 1)[-1]}, {re.split('[,-] ?', title_of(str(name)))[0]}".strip(
+            ", "
+        )
+        for name in dict.fromkeys(table["dataset"])
+    }
 
 
 def describe_motions(table: pd.DataFrame) -> str:

@@ -7,13 +7,13 @@ from collections.abc import Iterable
 import numpy as np
 import pandas as pd
 
-from workbench.experiments.bootstrap import bootstrap
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.keyframes import KeyframeRun
-from workbench.experiments.runs.saliency_times import SaliencyTimeRun
+from workbench.figures.parameter_curves import ParameterPanel
 from workbench.quality.animation import GREATEST_ANGLE
 from workbench.reproduction.claims import Evidence
 from workbench.reproduction.costa2018.results import evidence_of
+from workbench.reproduction.halit2010 import running_time
 from workbench.reproduction.halit2010.motions import (
     CALM,
     DYNAMIC,
@@ -24,16 +24,20 @@ from workbench.reproduction.halit2010.motions import (
     values_of,
 )
 
-#: The clip that is repeated for Figure 4.2; it is bundled.
-TIMED_CLIP = "cmu/01_01"
-
 _COMPONENTS = {"quick": (1, 2, 3, 5, 7, 10, 12), "full": tuple(range(1, 13))}
 _SIGMAS = {"quick": (1, 2, 3, 5, 7, 10, 15), "full": tuple(range(1, 16))}
-_LENGTHS = {
-    "quick": (10_000, 30_000, 100_000),
-    "full": (10_000, 20_000, 30_000, 40_000, 50_000, 60_000, 70_000, 80_000, 90_000, 100_000),
+#: What section 4.2 recommends, shaded in the figure.
+_RECOMMENDED = {
+    ("n_components", DYNAMIC): (7.0, 10.0),
+    ("n_components", CALM): (7.0, 10.0),
+    ("sigma", DYNAMIC): (1.0, 3.0),
+    ("sigma", CALM): (7.0, 10.0),
 }
-_REPETITIONS = 8
+#: Motions with a line of their own, the first that is there.
+_EXAMPLES = {
+    CALM: ("cmu/05_01", "cmu/01_03-walk"),
+    DYNAMIC: ("cmu/06_02", "cmu/01_01-two-jumps"),
+}
 
 #: What is varied, by its name in the library and in figures.
 VARIED = {"n_components": "number of components k", "sigma": "σ in frames"}
@@ -64,11 +68,7 @@ def planned_runs(
     for clip in motions(profile) if clips is None else clips:
         for varied in VARIED:
             runs += varied_runs(clip, varied, profile).values()
-    runs += [
-        SaliencyTimeRun(TIMED_CLIP, n_frames, repetition=repetition)
-        for repetition in range(_REPETITIONS)
-        for n_frames in _LENGTHS[profile]
-    ]
+    runs += running_time.planned_runs(profile)
     return list(dict.fromkeys(runs))
 
 
@@ -112,7 +112,7 @@ def varied_values(table: pd.DataFrame, varied: str, column: str = "psnr") -> pd.
     return values.dropna(axis="index", how="all").dropna(axis="columns", how="all")
 
 
-def panels_of_figure_4_1(table: pd.DataFrame) -> dict[str, tuple[str, pd.DataFrame]]:
+def chart_panels(table: pd.DataFrame) -> list[ParameterPanel]:
     """Arrange errors for the four panels of Figure 4.1.
 
     Parameters
@@ -122,19 +122,37 @@ def panels_of_figure_4_1(table: pd.DataFrame) -> dict[str, tuple[str, pd.DataFra
 
     Returns
     -------
-    dict of str to (str, DataFrame)
-        For each panel's title what varies, and the root mean squared joint-angle error in
-        degrees by motion and value. Panels without a motion are left out.
+    list of ParameterPanel
+        Root mean squared joint-angle errors in degrees; panels without a motion are left out.
     """
-    panels = {}
+    panels = []
     charts = [(varied, kind) for varied in VARIED for kind in (DYNAMIC, CALM)]
     for letter, (varied, kind) in zip("abcd", charts, strict=True):
         values = of_kind(varied_values(table, varied), kind)
+        if values.empty:
+            continue
         sigma, n_components = PARAMETERS[kind]
         fixed = f"σ = {sigma:g}" if varied == "n_components" else f"k = {n_components}"
-        if not values.empty:
-            panels[f"{letter}. {kind}, {fixed}"] = (varied, root_mean_square(values))
+        shown = next((clip for clip in _EXAMPLES[kind] if clip in values.index), "")
+        panels.append(
+            ParameterPanel(
+                f"{letter}. {kind} motions, {fixed}",
+                VARIED[varied],
+                root_mean_square(values),
+                _RECOMMENDED[varied, kind],
+                shown,
+            )
+        )
     return panels
+
+
+def describe_panel(panel: ParameterPanel) -> str:
+    """Say where the median of a panel begins and ends."""
+    median = panel.curves.median()
+    return (
+        f"{panel.title} from {median.iloc[0]:.1f} at {median.index[0]} to {median.iloc[-1]:.1f} "
+        f"at {median.index[-1]}"
+    )
 
 
 def of_kind(values: pd.DataFrame, kind: str) -> pd.DataFrame:
@@ -201,57 +219,18 @@ def gain(table: pd.DataFrame, varied: str, better: int, worse: int, kind: str = 
     return evidence_of(pair, lambda v: float(np.median(v[:, 0] - v[:, 1])))
 
 
+def evidence(table: pd.DataFrame) -> dict[str, Evidence]:
+    """Give the evidence on all claims about the parameters and the time, by claim."""
+    return {
+        "halit2010:seven-components": gain(table, "n_components", 10, 7),
+        "halit2010:few-components-lose": gain(table, "n_components", 7, 3),
+        "halit2010:small-sigma-for-dynamic": gain(table, "sigma", 3, 7, DYNAMIC),
+        "halit2010:large-sigma-for-calm": level(table, 10, CALM),
+        "halit2010:linear-time": running_time.growth(running_time.times(table)),
+    }
+
+
 def level(table: pd.DataFrame, sigma: int, kind: str) -> Evidence:
     """Estimate the PSNR at a σ over motions of a kind: the median in dB."""
     values = of_kind(varied_values(table, "sigma"), kind).reindex(columns=[sigma])
     return evidence_of(values, lambda v: float(np.median(v)))
-
-
-def times(table: pd.DataFrame) -> pd.DataFrame:
-    """Arrange the running times by repetition and number of frames, in seconds."""
-    if "n_frames" not in table:
-        return pd.DataFrame(dtype=float)
-    rows = table[(table["status"] == "done") & table["n_frames"].notna()]
-    values = rows.astype({"n_frames": int, "repetition": int}).pivot_table(
-        "seconds_total", "repetition", "n_frames", aggfunc="first"
-    )
-    return values.astype(float)
-
-
-def time_table(seconds: pd.DataFrame) -> pd.DataFrame:
-    """Summarize the running times for each number of frames."""
-    result = pd.DataFrame(
-        {
-            "seconds, median": seconds.median(),
-            "seconds, least": seconds.min(),
-            "seconds, most": seconds.max(),
-            "microseconds per frame": 1e6 * seconds.median() / seconds.columns.to_numpy(float),
-        }
-    )
-    result.index.name = "frames"
-    return result
-
-
-def growth(seconds: pd.DataFrame) -> Evidence:
-    """Estimate the exponent with which the time grows, over repetitions.
-
-    Parameters
-    ----------
-    seconds : DataFrame
-        From :func:`times`.
-
-    Returns
-    -------
-    Evidence
-        Median of the slopes of log(seconds) over log(frames).
-    """
-    complete = seconds.dropna()
-    if complete.empty or complete.shape[1] < 2:
-        return Evidence(None, units="repetitions", note="No complete repetition has finished.")
-    frames = np.log(complete.columns.to_numpy(float))
-    slopes = np.polyfit(frames, np.log(complete.to_numpy(float)).T, 1)[0]
-    return Evidence(
-        bootstrap(slopes, lambda values: float(np.median(values))),
-        units="repetitions",
-        note=f"{TIMED_CLIP} played forth and back, one thread in each process.",
-    )

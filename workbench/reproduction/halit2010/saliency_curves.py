@@ -84,7 +84,7 @@ def joint_curve(clip: str, joint: str = JOINT) -> JointCurve:
     degrees = angles[:, int(np.argmax(spreads))]
     standardized = (degrees - degrees.mean()) / degrees.std()
     saliency = curve_saliency(standardized[:, None], PARAMETERS[CALM][0])[:, 0]
-    seconds = np.arange(len(degrees)) * motion.frame_time
+    seconds = np.arange(len(degrees), dtype=np.float64) * float(motion.frame_time)
     return JointCurve(seconds, degrees, saliency / saliency.mean())
 
 
