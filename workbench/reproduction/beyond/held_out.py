@@ -1,0 +1,144 @@
+"""Runs that judge raw and optimized projections by samples that were held out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+from workbench.errors import WorkbenchError
+from workbench.experiments.runs.base import Run
+from workbench.experiments.runs.held_out import HeldOutRun
+from workbench.reproduction import profiles
+from workbench.reproduction.costa2018.keyframe_errors import RATIO
+
+#: Projectors by their names in Table 5.1 of Costa 2018.
+PROJECTORS = {
+    "PCA": "pca",
+    "MDS": "mds",
+    "Isomap": "isomap",
+    "LLE": "lle",
+    "Force": "force",
+    "t-SNE": "tsne",
+}
+TABLES = (
+    "uci/iris",
+    "uci/wine",
+    "uci/seeds",
+    "uci/ionosphere",
+    "uci/cloud",
+    "uci/yeast",
+    "uci/page-blocks",
+)
+
+#: Share of control points at which tables are judged too: 3 % of Iris are three rows.
+TABLE_RATIO = 0.1
+
+#: The quick profile takes what is bundled and what is projected fast, every third clip, and
+#: tables at one share of control points.
+_QUICK_PROJECTORS = ("PCA", "Isomap")
+_QUICK_TABLES = ("uci/iris", "uci/wine", "uci/ionosphere")
+_QUICK_CLIP_STEP = 3
+_N_SEEDS = {"quick": 1, "full": 2}
+
+
+def planned_runs(profile: str, seed: int) -> list[Run]:
+    """List the runs that the notebook reads with its default parameters.
+
+    Parameters
+    ----------
+    profile : {"quick", "full"}
+        Which data and projectors.
+    seed : int
+        The first seed.
+
+    Returns
+    -------
+    list of Run
+    """
+    return list(
+        held_out_runs(
+            clips_of(profile),
+            tables_of(profile),
+            projectors=projectors_of(profile),
+            seeds=seeds_of(profile, seed),
+            table_ratios=table_ratios_of(profile),
+        )
+    )
+
+
+def held_out_runs(
+    clips: Iterable[str],
+    tables: Iterable[str],
+    *,
+    projectors: Iterable[str],
+    seeds: Sequence[int],
+    table_ratios: Sequence[float] = (RATIO, TABLE_RATIO),
+) -> list[HeldOutRun]:
+    """List the runs on clips, split in two ways, and on tables, raw and standardised.
+
+    Parameters
+    ----------
+    clips, tables : iterable of str
+        Names of data sets.
+    projectors : iterable of str
+        Some of :data:`PROJECTORS`.
+    seeds : sequence of int
+        Each draws another split, and other control points of tables.
+    table_ratios : sequence of float
+        Shares of control points for tables.
+
+    Returns
+    -------
+    list of HeldOutRun
+
+    Raises
+    ------
+    WorkbenchError
+        If a projector is unknown.
+    """
+    names = list(projectors)
+    for name in names:
+        if name not in PROJECTORS:
+            raise WorkbenchError(f"projectors: got {name!r}, want some of {', '.join(PROJECTORS)}")
+    methods = [PROJECTORS[name] for name in names]
+    return [
+        HeldOutRun(clip, projector, split=split, ratio=RATIO, seed=seed)
+        for clip in clips
+        for projector in methods
+        for split in ("blocks", "random")
+        for seed in seeds
+    ] + [
+        HeldOutRun(table, projector, ratio=ratio, seed=seed, standardized=standardized)
+        for table in tables
+        for projector in methods
+        for standardized in (False, True)
+        for ratio in table_ratios
+        for seed in seeds
+    ]
+
+
+def clips_of(profile: str) -> list[str]:
+    """Choose the clips of a profile."""
+    clips = profiles.motion_clips(profile)
+    return clips[::_QUICK_CLIP_STEP] if profile == "quick" else clips
+
+
+def tables_of(profile: str) -> list[str]:
+    """Choose the tables of a profile that are on this machine."""
+    tables = _QUICK_TABLES if profile == "quick" else TABLES
+    absent = profiles.absent_tables(tables)
+    return [table for table in tables if table not in absent]
+
+
+def projectors_of(profile: str) -> list[str]:
+    """Choose the projectors of a profile."""
+    return list(_QUICK_PROJECTORS if profile == "quick" else PROJECTORS)
+
+
+def seeds_of(profile: str, seed: int) -> list[int]:
+    """Choose the seeds of a profile, from the one that is asked for."""
+    return list(range(seed, seed + _N_SEEDS[profile]))
+
+
+def table_ratios_of(profile: str) -> list[float]:
+    """Choose the shares of control points of tables."""
+    return [RATIO] if profile == "quick" else [RATIO, TABLE_RATIO]
