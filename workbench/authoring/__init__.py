@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from workbench.authoring.animation import animate
+from workbench.authoring.animation import animate, poses_at
 from workbench.authoring.trajectories import Trajectory
 
-__all__ = ["Trajectory", "animate"]
+__all__ = ["Trajectory", "animate", "poses_at"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from workbench.authoring.trajectories import Trajectory
 from workbench.backprojection.poses import PoseBackProjector
@@ -57,25 +58,45 @@ def animate(
     11
     """
     check_motion(like)
+    step = like.frame_time if frame_time is None else frame_time
+    return replace(poses_at(trajectory.frames(step).points, model, like), frame_time=step)
+
+
+def poses_at(points: ArrayLike, model: PoseBackProjector, like: Motion) -> Motion:
+    """Rebuild the poses at some points of the plane.
+
+    Parameters
+    ----------
+    points : array-like of shape (n_points, n_dimensions)
+        Positions.
+    model, like
+        As :func:`animate` takes them.
+
+    Returns
+    -------
+    Motion
+        One frame for each point.
+
+    Raises
+    ------
+    WorkbenchError
+        If the model's poses have other joints than the skeleton.
+    """
+    check_motion(like)
     if model.n_joints_ != like.skeleton.n_joints:
         raise WorkbenchError(
             f"model: rebuilds poses of {model.n_joints_} joints, "
             f"want the {like.skeleton.n_joints} of the skeleton of {like.name!r}"
         )
-    step = like.frame_time if frame_time is None else frame_time
-    points = trajectory.frames(step).points
+    rotations = model.predict(points)
     if getattr(model, "root_regressor_", None) is not None:
         root = model.predict_root(points)
     else:
-        root = np.repeat(like.root_translation[:1], len(points), axis=0)
+        root = np.repeat(like.root_translation[:1], len(rotations), axis=0)
     translations = {
-        joint: np.repeat(path.mean(axis=0)[None], len(points), axis=0)
+        joint: np.repeat(path.mean(axis=0)[None], len(rotations), axis=0)
         for joint, path in like.joint_translations.items()
     }
     return replace(
-        like,
-        rotations=model.predict(points),
-        root_translation=root,
-        joint_translations=translations,
-        frame_time=step,
+        like, rotations=rotations, root_translation=root, joint_translations=translations
     )

@@ -95,22 +95,38 @@ def trajectory_panels(
         if points.shape[1] != 2:
             raise WorkbenchError(f"points of {panel.title!r}: got three dimensions, want two")
         keys = control_point_indices(panel.control_points, len(points), name="keyframes")
-        for trace in _panel_traces(points, keys, crosses=crosses, closed=closed, gap=gap):
+        for trace in trajectory_traces(points, keys, crosses=crosses, closed=closed, gap=gap):
             figure.add_trace(trace, row=row, col=column)
     key = CROSS if crosses else {**_KEY, "color": "white"}
     for name, marker in (("keyframe", key), ("first frame", _START), ("last frame", _END)):
         figure.add_trace(go.Scatter(name=name, marker=marker, **LEGEND_ONLY))
-    return _with_color_bar(figure, seconds)
+    return add_time_bar(figure, seconds)
 
 
-def _panel_traces(
+def trajectory_traces(
     points: NDArray[np.float64],
     keys: NDArray[np.intp],
     *,
-    crosses: bool,
-    closed: bool,
-    gap: float | None,
+    crosses: bool = False,
+    closed: bool = False,
+    gap: float | None = None,
 ) -> list[go.Scatter]:
+    """Make the traces of one curve: path, frames, keyframes, first and last frame.
+
+    Parameters
+    ----------
+    points : ndarray of shape (n_frames, 2)
+        Positions.
+    keys : ndarray of shape (n_keyframes,)
+        Which of them are keyframes; there may be none.
+    crosses, closed, gap
+        As :func:`trajectory_panels` takes them.
+
+    Returns
+    -------
+    list of plotly.graph_objects.Scatter
+        Their colours are those of the figure's ``coloraxis``.
+    """
     times = np.linspace(0.0, 1.0, len(points))
     dots = np.setdiff1d(np.arange(len(points)), keys)
     traces = [_path(points, gap)]
@@ -162,8 +178,21 @@ def _silent(**settings: Any) -> go.Scatter:
     return go.Scatter(**settings, hoverinfo="skip", showlegend=False)
 
 
-def _with_color_bar(figure: go.Figure, seconds: float | None) -> go.Figure:
-    """Put one bar of time and one legend below all panels."""
+def add_time_bar(figure: go.Figure, seconds: float | None) -> go.Figure:
+    """Put one bar of time and one legend below all panels.
+
+    Parameters
+    ----------
+    figure : plotly.graph_objects.Figure
+        Panels of curves; it is changed.
+    seconds : float or None
+        How long the motion lasts; None for a bar that tells only start and end.
+
+    Returns
+    -------
+    plotly.graph_objects.Figure
+        The same.
+    """
     ticks = ["start", "", "end"]
     if seconds is not None:
         ticks = ["0 s", f"{seconds / 2:.1f} s", f"{seconds:.1f} s"]
