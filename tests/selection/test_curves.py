@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import combinations
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ from workbench.selection.curves import (
 def squared_error(values, keys):
     """Sum the squared errors frame by frame, without any closed form."""
     total = 0.0
-    for first, last in zip(keys, keys[1:], strict=False):
+    for first, last in pairwise(keys):
         for frame in range(first, last):
             share = (frame - first) / (last - first)
             straight = (1 - share) * values[first] + share * values[last]
