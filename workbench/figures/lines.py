@@ -15,6 +15,8 @@ from workbench.validation import whole_number
 #: Each line is told from the others without its colour too.
 _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "cross", "x")
 
+_BAND = "#EEF1F4"
+
 #: Pixels of a panel, and above and below all of them.
 _PANEL_HEIGHT, _AROUND = 230, 130
 
@@ -84,8 +86,6 @@ def line_panels(
     shown: set[str] = set()
     for index, panel in enumerate(panels):
         place = {"row": index // columns + 1, "col": index % columns + 1}
-        if band is not None:
-            figure.add_vrect(*band, fillcolor="#F1F3F5", line_width=0, layer="below", **place)
         for name, values in panel.lines.items():
             style = names.index(name)
             figure.add_trace(
@@ -107,6 +107,8 @@ def line_panels(
                 **place,
             )
             shown.add(name)
+        if band is not None and panel.lines:
+            figure.add_vrect(*band, fillcolor=_BAND, line_width=0, layer="below", **place)
     figure.update_annotations(font={"size": 13, "color": BLACK})
     figure.update_yaxes(rangemode="tozero", nticks=5)
     figure.update_yaxes(title_text=y_title, col=1)

@@ -188,6 +188,22 @@ def errors_at(table: pd.DataFrame, clips: dict[ActionPanel, str]) -> pd.DataFram
     return result
 
 
+def describe_errors(at: pd.DataFrame) -> str:
+    """Tell who does not see the figure how the error falls.
+
+    Parameters
+    ----------
+    at : DataFrame
+        From :func:`errors_at`.
+    """
+    parts = []
+    for name, row in at.iterrows():
+        values = [f"{row[p]:.2f} at {p}" for p in ("1 %", "3 %", "10 %") if pd.notna(row[p])]
+        if values:
+            parts.append(f"{name}: {', '.join(values)}")
+    return f"Mean error over the five interpolators: {'; '.join(parts)}."
+
+
 def flattening(table: pd.DataFrame, clips: dict[ActionPanel, str]) -> Evidence:
     """Compare how fast the error falls before and after 3 to 4 % of keyframes."""
     values = errors_at(table, clips)["late / early"]

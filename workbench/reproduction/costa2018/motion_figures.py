@@ -7,13 +7,18 @@ from dataclasses import dataclass
 from typing import Any
 
 import pandas as pd
+import plotly.graph_objects as go
 
+from workbench.datasets.catalogue import lookup
+from workbench.errors import WorkbenchError
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.schemes import SchemeRun, scheme_name
 from workbench.experiments.store import ResultStore
 from workbench.figures.embeddings import Panel
+from workbench.figures.trajectories import trajectory_panels
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
 from workbench.reproduction.costa2018.results import PROJECTORS
+from workbench.reproduction.outputs import Outputs
 from workbench.reproduction.profiles import motion_clips
 from workbench.reproduction.published import published
 from workbench.schemes import SpatialScheme
@@ -190,6 +195,50 @@ def _row(table: pd.DataFrame, clip: str, scheme: SpatialScheme) -> dict[Hashable
     return table[chosen].to_dict("records")[0]
 
 
+def save_figure(
+    outputs: Outputs, item: str, profile: str, table: pd.DataFrame, store: ResultStore
+) -> go.Figure | None:
+    """Draw a figure and save it with its ratios, or save why it cannot be made.
+
+    Parameters
+    ----------
+    outputs : Outputs
+        Where to.
+    item : str
+        Id of the figure.
+    profile, table, store
+        As :func:`make_figure` takes them.
+
+    Returns
+    -------
+    plotly.graph_objects.Figure or None
+        None if it cannot be made.
+
+    Raises
+    ------
+    WorkbenchError
+        If there is no such figure.
+    """
+    figure = {known.item: known for known in MOTION_FIGURES}.get(item)
+    if figure is None:
+        known = ", ".join(known.item for known in MOTION_FIGURES)
+        raise WorkbenchError(f"item: got {item!r}, want one of {known}")
+    made = make_figure(figure, profile, table, store)
+    if isinstance(made, str):
+        outputs.not_made(item, made)
+        return None
+    drawn = trajectory_panels(made.panels, crosses=True)
+    outputs.figure(item, drawn, caption=caption(made), alt=alt(made))
+    outputs.table(
+        item,
+        ratios(made),
+        caption="Stress of the projection and error of the rebuilt motion, after optimization "
+        f"over before, beside the caption of the thesis.{_stand_in(made)}",
+        name="ratios",
+    )
+    return drawn
+
+
 def ratios(made: MadeFigure) -> pd.DataFrame:
     """Set the ratios of a figure beside those of its caption."""
     printed = published(made.figure.item).table().iloc[0]
@@ -217,18 +266,18 @@ def caption(made: MadeFigure) -> str:
     """Say what a figure shows and how it differs from the published one."""
     figure = made.figure
     name = made.clip.removeprefix("cmu/")
-    stand_in = "" if made.clip == figure.published_clip else _stand_in(made)
     return (
         f"{figure.action[0].upper()}{figure.action[1:]}: {name}, {made.n_frames} frames, projected "
         f"in two steps, seeds by {figure.projector}, before (left) and after (right) optimization "
         f"by Alg. 12. Crosses are the {made.n_keys} keyframes (ROLS), dots the other frames; "
-        f"colour is time.{stand_in}"
+        f"colour is time.{_stand_in(made)}"
     )
 
 
 def _stand_in(made: MadeFigure) -> str:
-    from workbench.datasets.catalogue import lookup
-
+    """Say which clip stands in for that of the thesis, if one does."""
+    if made.clip == made.figure.published_clip:
+        return ""
     entry = lookup(made.clip)
     what = f" ({entry.title})" if entry else ""
     theirs = made.figure.published_clip.removeprefix("cmu/")

@@ -79,6 +79,31 @@ def values_by_seed(table: pd.DataFrame, scheme: Scheme, column: str = "error") -
     return wide.reindex(list(dict.fromkeys(rows["dataset"])))
 
 
+def on_all(values: pd.DataFrame, table: pd.DataFrame) -> pd.DataFrame:
+    """Keep the clips that have all values, so that what is compared is of the same clips.
+
+    Parameters
+    ----------
+    values : DataFrame of shape (n_clips, n_values)
+        Such as errors of several schemes.
+    table : DataFrame
+        The runs that they are from.
+
+    Returns
+    -------
+    DataFrame of shape (n_complete_clips, n_values)
+
+    Raises
+    ------
+    WorkbenchError
+        If there is no such clip; the message says why a run failed.
+    """
+    complete = values.dropna()
+    if complete.empty:
+        raise WorkbenchError(f"no clip has all runs. {describe_failures(table)}".strip())
+    return complete
+
+
 def evidence_of(
     values: pd.DataFrame | pd.Series,
     statistic: Callable[[NDArray[np.float64]], float],
@@ -198,9 +223,25 @@ def judged(evidence: Mapping[str, Evidence]) -> pd.DataFrame:
 
 
 def describe_clips(
-    table: pd.DataFrame, keyframes: str = "uniform keyframes, 3 %, first and last frame included"
+    table: pd.DataFrame,
+    keyframes: str = "uniform keyframes, 3 %, first and last frame included",
+    *,
+    published: str = "70",
 ) -> str:
     """Say in a sentence which clips were used and how many, which keyframes, and what failed.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+    keyframes : str
+        Which frames are keyframes.
+    published : str
+        How many clips the thesis had.
+
+    Returns
+    -------
+    str
 
     Raises
     ------
@@ -216,5 +257,5 @@ def describe_clips(
     number = "1 CMU clip" if len(clips) == 1 else f"{len(clips)} CMU clips"
     shortest, longest = lengths.min(), lengths.max()
     span = str(longest) if shortest == longest else f"{shortest} to {longest}"
-    text = f"{number} of {span} frames ({names}), where the thesis had 70; {keyframes}."
+    text = f"{number} of {span} frames ({names}), where the thesis had {published}; {keyframes}."
     return f"{text} {describe_failures(table)}".strip()

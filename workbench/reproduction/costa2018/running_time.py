@@ -121,6 +121,23 @@ def times(table: pd.DataFrame) -> pd.DataFrame:
     return result.sort_values("projection, µs/frame")
 
 
+def describe_times(compared: pd.DataFrame) -> str:
+    """Tell who does not see the figure the times.
+
+    Parameters
+    ----------
+    compared : DataFrame
+        From :func:`times`.
+    """
+    project, optimize = compared.iloc[:, 0], compared.iloc[:, 1]
+    values = ", ".join(f"{name} {value:.0f}" for name, value in project.items())
+    others = ", ".join(f"{name} {value:.0f}" for name, value in optimize.items())
+    return (
+        "Dots and lines on a logarithmic axis, one row per projector. Median microseconds per "
+        f"frame of projection: {values}; of optimization: {others}."
+    )
+
+
 def steps(table: pd.DataFrame) -> pd.DataFrame:
     """Compare the times of all steps, medians over clips in milliseconds.
 

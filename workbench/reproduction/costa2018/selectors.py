@@ -12,7 +12,7 @@ from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.schemes import Scheme, SchemeRun
 from workbench.reproduction.claims import Evidence
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
-from workbench.reproduction.costa2018.results import PROJECTORS, evidence_of, values_by_clip
+from workbench.reproduction.costa2018.results import PROJECTORS, evidence_of, on_all, values_by_clip
 from workbench.reproduction.profiles import motion_clips
 from workbench.reproduction.published import published
 from workbench.schemes import SpatialScheme, TemporalScheme
@@ -98,7 +98,7 @@ def errors(table: pd.DataFrame) -> pd.DataFrame:
         for selector in SELECTORS
     }
     joined = pd.concat(parts, axis=1, names=["panel", "selector", "scheme"])
-    return joined.reorder_levels(["panel", "scheme", "selector"], axis=1).dropna()
+    return on_all(joined.reorder_levels(["panel", "scheme", "selector"], axis=1), table)
 
 
 def bars(clips: pd.DataFrame) -> dict[str, dict[str, dict[str, float]]]:
@@ -144,6 +144,27 @@ def mean_errors(clips: pd.DataFrame) -> pd.DataFrame:
     table = pd.DataFrame.from_dict(rows, orient="index")
     table.index.name = "scheme"
     return table
+
+
+def describe_means(means: pd.DataFrame) -> str:
+    """Tell who does not see the figure the mean errors with uniform sampling.
+
+    Parameters
+    ----------
+    means : DataFrame
+        From :func:`mean_errors`.
+    """
+    names = [str(name) for name in means.index]
+    values = "; ".join(
+        f"{name} {value:.2f}" for name, value in zip(names, means["US"], strict=True)
+    )
+    numbers = means[list(SELECTORS)].to_numpy(float)
+    row, column = divmod(int(numbers.argmin()), len(SELECTORS))
+    return (
+        "Bar charts of the mean error of four keyframe selectors with three temporal and six "
+        f"spatial schemes. With uniform sampling: {values}. The lowest is {names[row]} with "
+        f"{list(SELECTORS)[column]}, {numbers.min():.2f}."
+    )
 
 
 def against_uniform(clips: pd.DataFrame) -> pd.DataFrame:

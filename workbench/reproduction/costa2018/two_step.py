@@ -7,6 +7,7 @@ import pandas as pd
 
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.schemes import Scheme, SchemeRun
+from workbench.figures.style import BLUE, ORANGE, SKY, VERMILLION
 from workbench.reproduction.claims import Evidence
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
 from workbench.reproduction.costa2018.motion_figures import figure_runs
@@ -14,6 +15,7 @@ from workbench.reproduction.costa2018.results import (
     PROJECTORS,
     evidence_of,
     geometric_mean,
+    on_all,
     part,
     values_by_clip,
 )
@@ -37,6 +39,14 @@ _STEPS = {
 }
 #: What Figure 5.4 shows. LAMP is not in it: the text says why.
 IN_FIGURE = (ONE_STEP, ONE_STEP_OPTIMIZED, RBFP, RBFP_OPTIMIZED)
+
+#: Light before the optimization and dark after it, so that print without colours tells both.
+COLORS = {
+    ONE_STEP: SKY,
+    ONE_STEP_OPTIMIZED: BLUE,
+    RBFP: ORANGE,
+    RBFP_OPTIMIZED: VERMILLION,
+}
 
 #: Ratios of stress, after optimization over before, by the name of the formula.
 FORMULAS = {
@@ -92,8 +102,8 @@ def errors(table: pd.DataFrame, clips: list[str]) -> pd.DataFrame:
         projector.
     """
     parts = {steps: values_by_clip(table, family(steps)) for steps in _STEPS}
-    joined = pd.concat(parts, axis=1).dropna()
-    return joined[joined.index.isin(clips)]
+    joined = pd.concat(parts, axis=1)
+    return on_all(joined[joined.index.isin(clips)], table)
 
 
 def bars(by_clip: pd.DataFrame) -> dict[str, dict[str, float]]:
@@ -107,6 +117,24 @@ def mean_errors(by_clip: pd.DataFrame) -> pd.DataFrame:
     table = pd.DataFrame({steps: part(by_clip, steps).mean() for steps in _STEPS})
     table.index.name = "projector"
     return table
+
+
+def describe_means(means: pd.DataFrame) -> str:
+    """Tell who does not see Figure 5.4 its values.
+
+    Parameters
+    ----------
+    means : DataFrame
+        From :func:`mean_errors`.
+    """
+    parts = [
+        f"{name}: " + ", ".join(f"{row[steps]:.2f}" for steps in IN_FIGURE)
+        for name, row in means.iterrows()
+    ]
+    return (
+        "Bar chart of the mean error for six projectors, each in one step, in one step optimized, "
+        f"in two steps and in two steps optimized. {'; '.join(parts)}."
+    )
 
 
 def stress_ratios(table: pd.DataFrame, clips: list[str], formula: str) -> pd.DataFrame:
@@ -131,8 +159,8 @@ def stress_ratios(table: pd.DataFrame, clips: list[str], formula: str) -> pd.Dat
         row: values_by_clip(table, of_row, FORMULAS[formula])
         for row, of_row in rows_of_table().items()
     }
-    joined = pd.concat(parts, axis=1).dropna()
-    return joined[joined.index.isin(clips)]
+    joined = pd.concat(parts, axis=1)
+    return on_all(joined[joined.index.isin(clips)], table)
 
 
 def table_5_2(ratios: dict[str, pd.DataFrame]) -> pd.DataFrame:
