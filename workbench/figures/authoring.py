@@ -14,13 +14,13 @@ from workbench.figures.embeddings import Panel
 from workbench.figures.stick_drawing import body_traces
 from workbench.figures.stick_figures import StickFigures
 from workbench.figures.style import BLACK, GREY, TEMPLATE
-from workbench.figures.trajectories import add_time_bar, trajectory_traces
+from workbench.figures.trajectories import add_key, trajectory_traces
 from workbench.validation import as_numbers
 
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 #: Space between poses, and above and below a row, as shares of the body's height.
-_GAP, _AROUND = 0.1, 0.16
+_GAP, _AROUND = 0.1, 0.12
 
 
 def plane_with_poses(
@@ -77,9 +77,11 @@ def plane_with_poses(
     _draw_plane(figure, panel, at, before)
     for row, (name, figures) in enumerate(poses.items(), 1):
         _draw_poses(figure, name, figures, row)
-    figure.update_layout(template=TEMPLATE, height=430)
-    add_time_bar(figure, seconds)
-    return figure.update_layout(coloraxis_colorbar={"x": 0.0, "xanchor": "left", "len": 0.4})
+    figure.update_layout(template=TEMPLATE, height=310 + 130 * len(poses))
+    add_key(figure, seconds)
+    return figure.update_layout(
+        coloraxis_colorbar={"x": 0.0, "xanchor": "left", "len": 0.4}, legend_x=0.46
+    )
 
 
 def _draw_plane(
@@ -127,6 +129,7 @@ def _draw_poses(figure: go.Figure, name: str, figures: StickFigures, row: int) -
     boxes = figures.bounds()[..., 0] - figures.roots[:, :1]
     cell = (boxes[:, 1] - boxes[:, 0]).max() + _GAP * figures.body_height
     shifts = np.arange(len(figures))[:, None] * [cell, 0.0] - figures.roots
+    shifts[:, 0] -= boxes.mean(axis=1)
     placed = figures.moved(shifts)
     for trace in body_traces(placed, width=2.6):
         figure.add_trace(trace, row=row, col=2)

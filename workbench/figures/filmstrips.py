@@ -97,7 +97,7 @@ def filmstrip(
             seconds = chosen[pose] * motion.frame_time
             name = f"({'abcdefghijklmnopqrstuvwxyz'[pose]}) " if letters else ""
             figure.add_annotation(
-                x=figures.roots[pose, 0],
+                x=bounds[pose, :, 0].mean(),
                 y=foot,
                 yanchor="top",
                 text=f"<b>{name}{chosen[pose]}</b><br>"
@@ -142,7 +142,7 @@ def _in_rows(
             elif travelling:
                 x = -boxes[pose, 0]
             else:
-                x = place * cell + cell / 2 - gap
+                x = place * cell + cell / 2 - gap - boxes[pose].mean()
             shifts[pose, 0] += x
         last = x + boxes[row[-1], 1] + gap
         widths.append(float(last if travelling else len(row) * cell))

@@ -97,10 +97,7 @@ def trajectory_panels(
         keys = control_point_indices(panel.control_points, len(points), name="keyframes")
         for trace in trajectory_traces(points, keys, crosses=crosses, closed=closed, gap=gap):
             figure.add_trace(trace, row=row, col=column)
-    key = CROSS if crosses else {**_KEY, "color": "white"}
-    for name, marker in (("keyframe", key), ("first frame", _START), ("last frame", _END)):
-        figure.add_trace(go.Scatter(name=name, marker=marker, **LEGEND_ONLY))
-    return add_time_bar(figure, seconds)
+    return add_key(figure, seconds, crosses=crosses)
 
 
 def trajectory_traces(
@@ -178,8 +175,8 @@ def _silent(**settings: Any) -> go.Scatter:
     return go.Scatter(**settings, hoverinfo="skip", showlegend=False)
 
 
-def add_time_bar(figure: go.Figure, seconds: float | None) -> go.Figure:
-    """Put one bar of time and one legend below all panels.
+def add_key(figure: go.Figure, seconds: float | None, *, crosses: bool = False) -> go.Figure:
+    """Put one bar of time and one legend of the marks below all panels.
 
     Parameters
     ----------
@@ -187,12 +184,17 @@ def add_time_bar(figure: go.Figure, seconds: float | None) -> go.Figure:
         Panels of curves; it is changed.
     seconds : float or None
         How long the motion lasts; None for a bar that tells only start and end.
+    crosses : bool
+        Whether keyframes are crosses.
 
     Returns
     -------
     plotly.graph_objects.Figure
         The same.
     """
+    key = CROSS if crosses else {**_KEY, "color": "white"}
+    for name, marker in (("keyframe", key), ("first frame", _START), ("last frame", _END)):
+        figure.add_trace(go.Scatter(name=name, marker=marker, **LEGEND_ONLY))
     ticks = ["start", "", "end"]
     if seconds is not None:
         ticks = ["0 s", f"{seconds / 2:.1f} s", f"{seconds:.1f} s"]
