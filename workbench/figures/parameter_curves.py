@@ -50,11 +50,11 @@ def parameter_curves(
     Parameters
     ----------
     panels : sequence of ParameterPanel
-        The charts, two in a row; each row has one y-axis.
+        The charts, two in a row, each with a y-axis of its own that starts at 0.
     y_title : str
         What the values are.
     names : mapping of str to str, optional
-        What to call the motions in tooltips and in the legend.
+        What to call the motions in tooltips.
 
     Returns
     -------
@@ -81,22 +81,22 @@ def parameter_curves(
     for index, panel in enumerate(panels):
         place = {"row": index // 2 + 1, "col": index % 2 + 1}
         if panel.band is not None:
-            figure.add_vrect(*panel.band, fillcolor="#EAF3EE", line_width=0, layer="below", **place)
+            shade = {"fillcolor": "#E4F1EA", "line_width": 0, "layer": "below"}
+            figure.add_vrect(*panel.band, **shade, **place, exclude_empty_subplots=False)
         for motion, row in panel.curves.iterrows():
             if motion != panel.shown:
                 name = labels.get(str(motion), str(motion))
                 figure.add_trace(_line(row, "each motion", name, _FAINT, 1.0, in_legend), **place)
         if panel.shown in panel.curves.index:
             name = labels.get(panel.shown, panel.shown)
-            trace = _line(
-                panel.curves.T[panel.shown], name, name, VERMILLION, 2.0, in_legend, "square"
-            )
+            row = panel.curves.T[panel.shown]
+            trace = _line(row, "example", name, VERMILLION, 2.0, in_legend, "square")
             figure.add_trace(trace, **place)
         median = panel.curves.median()
         figure.add_trace(_line(median, "median", "median", BLUE, 2.6, in_legend, "circle"), **place)
         figure.update_xaxes(title_text=panel.x_title, **place)
     figure.update_annotations(font={"size": 13, "color": BLACK})
-    figure.update_xaxes(showgrid=False, dtick=2)
+    figure.update_xaxes(showgrid=False, zeroline=False, dtick=2)
     figure.update_yaxes(rangemode="tozero", nticks=6)
     figure.update_yaxes(title_text=y_title, col=1)
     legend = {"y": 1 + 34 / (height - _AROUND), "itemwidth": 40}

@@ -74,7 +74,7 @@ def saliency_figure(
     _mean_line(figure, row=2)
     figure.update_yaxes(title_text=y_title, row=1)
     figure.update_yaxes(title_text="saliency / mean", rangemode="tozero", row=2)
-    return figure.update_layout(height=500, showlegend=False)
+    return figure.update_layout(height=480, showlegend=False, margin={"t": 16})
 
 
 def candidate_figure(
@@ -124,7 +124,7 @@ def candidate_figure(
         )
     )
     figure.update_xaxes(title_text="time in seconds", showgrid=False)
-    figure.update_yaxes(title_text=y_title)
+    figure.update_yaxes(title_text=y_title, zeroline=False)
     return figure
 
 
@@ -218,7 +218,7 @@ def _two_panels(heights: tuple[float, float]) -> go.Figure:
     figure = make_subplots(
         rows=2, cols=1, shared_xaxes=True, row_heights=list(heights), vertical_spacing=0.07
     )
-    figure.update_xaxes(showgrid=False)
+    figure.update_xaxes(showgrid=False, zeroline=False)
     figure.update_xaxes(title_text="time in seconds", row=2)
     return figure.update_layout(template=TEMPLATE)
 

@@ -36,7 +36,7 @@ def time_growth(seconds: pd.DataFrame, *, x_title: str, note: str = "") -> go.Fi
     sizes = seconds.columns.to_numpy(float)
     medians = seconds.median().to_numpy(float)
     slope, start = np.polyfit(sizes, medians, 1)
-    ends = np.array([0.0, sizes.max()])
+    ends = np.array([sizes.min(), sizes.max()])
     figure = go.Figure(layout={"template": TEMPLATE, "height": 440})
     figure.add_trace(
         go.Scatter(
@@ -78,6 +78,6 @@ def time_growth(seconds: pd.DataFrame, *, x_title: str, note: str = "") -> go.Fi
             yanchor="top",
             font={"size": 12},
         )
-    figure.update_xaxes(title_text=x_title, rangemode="tozero", tickformat=",")
+    figure.update_xaxes(title_text=x_title, rangemode="tozero", tickformat=",", showgrid=False)
     figure.update_yaxes(title_text="seconds", rangemode="tozero")
     return figure

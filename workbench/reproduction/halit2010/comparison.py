@@ -138,11 +138,13 @@ def comparison_table(table: pd.DataFrame, column: str) -> pd.DataFrame:
             mine, their = ours.get(motion, {}).get(name), theirs[motion][name]
             # Numbers of frames say nothing about the method where the clips are others.
             is_count = name.endswith("frames") and "%" not in name
-            row[motion, "ours"] = mine
-            row[motion, "published"] = their
+            row[motion, "ours"] = _count(mine) if is_count else mine
+            row[motion, "published"] = _count(their) if is_count else their
             row[motion, "difference"] = None if mine is None or is_count else mine - their
     scaled = {_scaled_name(name): _scaled(name, row) for name, row in rows.items()}
-    result = pd.DataFrame.from_dict(scaled if column == "body_error" else rows, orient="index")
+    # As objects, so that counts are written as counts.
+    content = scaled if column == "body_error" else rows
+    result = pd.DataFrame(content, dtype=object).T
     result.columns = pd.MultiIndex.from_tuples(list(rows["frames"]))
     result.index.name = "quantity"
     return result
@@ -178,6 +180,10 @@ def _with_shares(values: dict[str, dict[str, float]]) -> dict[str, dict[str, flo
     return found
 
 
+def _count(value: float | None) -> int | None:
+    return None if value is None else int(value)
+
+
 def _scaled_name(name: str) -> str:
     return name if "frames" in name else f"{name}, error × 1000"
 
@@ -199,7 +205,7 @@ def describe_stand_ins(table: pd.DataFrame) -> str:
             parts.append(f"for {motion} stands {clip} ({title_of(clip)})")
     missing = [motion for motion in MOTIONS if motion not in found]
     if missing:
-        parts.append(f"of {' and '.join(missing)} there is no clip on this machine")
+        parts.append(f"there is no clip of {', '.join(missing)} on this machine")
     text = "; ".join(parts)
     return f"{text[:1].upper()}{text[1:]}."
 

@@ -24,7 +24,7 @@ from workbench.reproduction.halit2010.motions import (
     values_of,
 )
 
-_COMPONENTS = {"quick": (1, 2, 3, 5, 7, 10, 12), "full": tuple(range(1, 13))}
+_COMPONENTS = {"quick": (1, 3, 5, 7, 10), "full": tuple(range(1, 13))}
 _SIGMAS = {"quick": (1, 2, 3, 5, 7, 10, 15), "full": tuple(range(1, 16))}
 #: What section 4.2 recommends, shaded in the figure.
 _RECOMMENDED = {
@@ -134,9 +134,10 @@ def chart_panels(table: pd.DataFrame) -> list[ParameterPanel]:
         sigma, n_components = PARAMETERS[kind]
         fixed = f"σ = {sigma:g}" if varied == "n_components" else f"k = {n_components}"
         shown = next((clip for clip in _EXAMPLES[kind] if clip in values.index), "")
+        example = f" (example: {shown.split('/', 1)[-1]})" if shown else ""
         panels.append(
             ParameterPanel(
-                f"{letter}. {kind} motions, {fixed}",
+                f"{letter}. {kind} motions, {fixed}{example}",
                 VARIED[varied],
                 root_mean_square(values),
                 _RECOMMENDED[varied, kind],
@@ -149,10 +150,8 @@ def chart_panels(table: pd.DataFrame) -> list[ParameterPanel]:
 def describe_panel(panel: ParameterPanel) -> str:
     """Say where the median of a panel begins and ends."""
     median = panel.curves.median()
-    return (
-        f"{panel.title} from {median.iloc[0]:.1f} at {median.index[0]} to {median.iloc[-1]:.1f} "
-        f"at {median.index[-1]}"
-    )
+    (first, start), *_, (last, end) = median.items()
+    return f"{panel.title.split(' (')[0]} from {start:.1f} at {first} to {end:.1f} at {last}"
 
 
 def of_kind(values: pd.DataFrame, kind: str) -> pd.DataFrame:

@@ -23,7 +23,7 @@ from workbench.reproduction.halit2010.motions import STRETCHING, motions
 from workbench.reproduction.published import published
 
 #: A bundled clip, for readings where the thesis's own is not at hand.
-_BUNDLED = "cmu/01_01"
+_BUNDLED = "cmu/01_01-three-jumps"
 
 #: What is read in several ways, and how the columns of results name it.
 CHOICES: dict[str, dict[str, Any]] = {

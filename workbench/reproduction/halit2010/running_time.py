@@ -17,14 +17,14 @@ _LENGTHS = {
     "quick": (10_000, 30_000, 100_000),
     "full": (10_000, 20_000, 30_000, 40_000, 50_000, 60_000, 70_000, 80_000, 90_000, 100_000),
 }
-_REPETITIONS = 8
+_REPETITIONS = {"quick": 6, "full": 10}
 
 
 def planned_runs(profile: str) -> list[Run]:
     """List the runs that measure the time, each length as often as the others."""
     return [
         SaliencyTimeRun(TIMED_CLIP, n_frames, repetition=repetition)
-        for repetition in range(_REPETITIONS)
+        for repetition in range(_REPETITIONS[profile])
         for n_frames in _LENGTHS[profile]
     ]
 
