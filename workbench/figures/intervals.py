@@ -13,7 +13,7 @@ from workbench.figures.style import BLACK, PALETTE, SYMBOLS, TEMPLATE
 
 #: Pixels of a row with one series, and of each further one; of a panel's title, of a line of the
 #: legend, which stand below each other on a phone, and below all panels.
-_ROW, _SERIES, _TITLE, _LEGEND, _BELOW = 20, 9, 44, 22, 56
+_ROW, _SERIES, _TITLE, _LEGEND, _BELOW = 20, 9, 44, 26, 56
 #: How far apart the series of one row lie, in rows.
 _STEP = 0.3
 _MINOR = "#F1F3F5"
@@ -156,7 +156,7 @@ def _dots(name: str, found: Mapping[str, Interval], heights: list[float], index:
         mode="markers",
         marker={
             "symbol": SYMBOLS[index % len(SYMBOLS)],
-            "size": 8,
+            "size": 9,
             "color": color,
             "line": {"color": "white", "width": 1},
         },

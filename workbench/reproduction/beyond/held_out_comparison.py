@@ -10,9 +10,7 @@ from numpy.typing import NDArray
 
 from workbench.errors import WorkbenchError
 from workbench.experiments.bootstrap import Estimate, bootstrap
-from workbench.experiments.grid import describe_failures
 from workbench.reproduction.beyond.held_out import PROJECTORS
-from workbench.reproduction.claims import Evidence
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
 
 #: What the samples are and how they were split, from the most to the least that is new.
@@ -21,9 +19,6 @@ FRAMES = "Clips, frames held out"
 RAW_TABLES = "Tables, raw"
 STANDARDIZED_TABLES = "Tables, standardised"
 SETTINGS = (STRETCHES, FRAMES, RAW_TABLES, STANDARDIZED_TABLES)
-
-#: Settings that decide claims: of frames drawn one by one, the neighbours were seen.
-_DECISIVE = (STRETCHES, RAW_TABLES, STANDARDIZED_TABLES)
 
 #: Samples whose error is compared, with the columns after and before optimization.
 _GAINS = {
@@ -50,7 +45,8 @@ METHODS = {
     },
     "looks at the answer": {"own best position": "error_self_placed"},
 }
-_MEAN_SAMPLE = "error_mean_sample"
+#: Error of the poorest sensible reconstruction.
+MEAN_SAMPLE = "error_mean_sample"
 
 _MAPS = {"five nearest": "mean", "nearest": "nearest", "RBF": "rbf"}
 
@@ -106,7 +102,7 @@ def ratios(rows: pd.DataFrame, numerator: str, denominator: str) -> NDArray[np.f
         Geometric means over what else the runs differ in: projectors, and the scaling of a
         table. Data sets without all seeds are left out; empty if none is left.
     """
-    logs = rows.assign(value=_log_ratio(rows, numerator, denominator))
+    logs = rows.assign(value=log_ratio(rows, numerator, denominator))
     means = logs.pivot_table("value", "dataset", "seed", aggfunc="mean")
     values: NDArray[np.float64] = np.exp(means.dropna().to_numpy(dtype=np.float64))
     return values
@@ -145,7 +141,7 @@ def gains(rows: pd.DataFrame) -> dict[str, dict[str, dict[str, Estimate]]]:
             samples: _estimates({name: (some, columns) for name, some in _by_projector(of_setting)})
             for samples, columns in _GAINS.items()
         }
-        for setting, of_setting in _by_setting(rows)
+        for setting, of_setting in by_setting(rows)
     }
 
 
@@ -165,7 +161,7 @@ def gain_table(rows: pd.DataFrame) -> pd.DataFrame:
         projector's own ``transform``.
     """
     described = {}
-    for setting, of_setting in _by_setting(rows):
+    for setting, of_setting in by_setting(rows):
         for name, some in _by_projector(of_setting):
             row = {
                 ("training", "Alg. 12 / raw"): ("training_error_alg12", "training_error_raw"),
@@ -182,9 +178,9 @@ def gain_table(rows: pd.DataFrame) -> pd.DataFrame:
                 ),
             }
             described[f"{setting}: {name}"] = {
-                label: _median_ratio(some, *columns) for label, columns in row.items()
+                label: median_ratio(some, *columns) for label, columns in row.items()
             } | {("", "data sets"): some["dataset"].nunique()}
-    return _as_table(described, "setting, projector")
+    return as_table(described, "setting, projector")
 
 
 def method_errors(rows: pd.DataFrame) -> dict[str, dict[str, dict[str, Estimate]]]:
@@ -204,11 +200,11 @@ def method_errors(rows: pd.DataFrame) -> dict[str, dict[str, dict[str, Estimate]
     return {
         setting: {
             keeping: _estimates(
-                {label: (of_setting, (column, _MEAN_SAMPLE)) for label, column in methods.items()}
+                {label: (of_setting, (column, MEAN_SAMPLE)) for label, column in methods.items()}
             )
             for keeping, methods in METHODS.items()
         }
-        for setting, of_setting in _by_setting(rows)
+        for setting, of_setting in by_setting(rows)
     }
 
 
@@ -227,114 +223,17 @@ def method_table(rows: pd.DataFrame) -> pd.DataFrame:
     """
     columns = {
         setting: {
-            label: _median_ratio(of_setting, column, _MEAN_SAMPLE)
+            label: median_ratio(of_setting, column, MEAN_SAMPLE)
             for methods in METHODS.values()
             for label, column in methods.items()
         }
-        for setting, of_setting in _by_setting(rows)
+        for setting, of_setting in by_setting(rows)
     }
     return pd.DataFrame(columns).rename_axis("method")
 
 
-def explanation_table(rows: pd.DataFrame) -> pd.DataFrame:
-    """Look for what the gain on held-out samples depends on.
-
-    Parameters
-    ----------
-    rows : DataFrame
-        From :func:`finished`.
-
-    Returns
-    -------
-    DataFrame
-        One row for each setting. Medians of the ratios over runs: of the error of training
-        samples, of held-out ones, and of held-out ones that move by their own error, each
-        over that of raw positions; and of the share of positions that the neighbours leave
-        open. Then Spearman's rank correlations, over runs, of the held-out ratio with that
-        of what is left open, and with the distance to the nearest training sample.
-    """
-    described = {}
-    for setting, some in _by_setting(rows):
-        held_out = _log_ratio(some, "error_alg12_mean", "error_raw_mean")
-        open_part = _log_ratio(some, "unexplained_alg12", "unexplained_raw")
-        distance = _log_ratio(some, "error_data_nearest", _MEAN_SAMPLE)
-        described[setting] = {
-            ("error / raw", "training"): _median_ratio(
-                some, "training_error_alg12", "training_error_raw"
-            ),
-            ("error / raw", "held out"): _median_ratio(some, "error_alg12_mean", "error_raw_mean"),
-            ("error / raw", "held out, looking at the answer"): _median_ratio(
-                some, "error_self_placed", "error_raw_mean"
-            ),
-            ("positions that neighbours leave open", "optimized / raw"): float(
-                np.exp(open_part.median())
-            ),
-            ("rank correlation of the held-out ratio with", "what is left open"): held_out.corr(
-                open_part, method="spearman"
-            ),
-            ("rank correlation of the held-out ratio with", "distance to the known"): held_out.corr(
-                distance, method="spearman"
-            ),
-            ("", "runs"): len(some),
-        }
-    return _as_table(described, "setting")
-
-
-#: The two errors whose ratio decides each claim.
-_CLAIMS = {
-    "ours:helps-on-held-out": ("error_alg12_mean", "error_raw_mean"),
-    "ours:beats-nearest-neighbour-held-out": ("error_alg12_mean", "error_plane_nearest"),
-    "ours:beats-nearest-control-point-held-out": ("error_alg12_mean", "error_plane_control"),
-    "ours:beats-own-inverse-held-out": ("error_alg12_mean", "error_inverse"),
-}
-
-
-def evidence(table: pd.DataFrame) -> dict[str, Evidence]:
-    """Give the evidence on the claims about held-out samples.
-
-    Parameters
-    ----------
-    table : DataFrame
-        From :func:`workbench.experiments.grid.run_grid`.
-
-    Returns
-    -------
-    dict of str to Evidence
-        By claim; over data sets, clips with whole stretches held out. The note tells the
-        settings apart.
-    """
-    rows = finished(table)
-    decisive = rows[rows["setting"].isin(_DECISIVE)]
-    found = {}
-    for claim, columns in _CLAIMS.items():
-        medians = {setting: _median_ratio(some, *columns) for setting, some in _by_setting(rows)}
-        note = "; ".join(
-            f"{setting}: {value:.2f}" for setting, value in medians.items() if np.isfinite(value)
-        )
-        found[claim] = Evidence(
-            estimate(decisive, *columns), units="data sets", note=f"Medians by setting: {note}."
-        )
-    return found
-
-
-def describe_data(table: pd.DataFrame) -> str:
-    """Say in a sentence what data were used, and what failed."""
-    rows = finished(table)
-    names = rows.drop_duplicates("dataset")["dataset"]
-    tables = [name.removeprefix("uci/") for name in names if name.startswith("uci/")]
-    clips = [name.removeprefix("cmu/") for name in names if not name.startswith("uci/")]
-    parts = [
-        f"{len(found)} {kind}{'' if len(found) == 1 else 's'} ({', '.join(found)})"
-        for kind, found in (("CMU clip", clips), ("UCI table", tables))
-        if found
-    ]
-    n_seeds = rows["seed"].nunique()
-    splits = "1 split" if n_seeds == 1 else f"{n_seeds} splits"
-    text = f"{' and '.join(parts)}, {splits} of each; 70 % to train with."
-    return f"{text} {describe_failures(table)}".strip()
-
-
-def _by_setting(rows: pd.DataFrame) -> list[tuple[str, pd.DataFrame]]:
+def by_setting(rows: pd.DataFrame) -> list[tuple[str, pd.DataFrame]]:
+    """Split rows by their settings, in the order of :data:`SETTINGS`."""
     groups = dict(list(rows.groupby("setting")))
     return [(setting, groups[setting]) for setting in SETTINGS if setting in groups]
 
@@ -353,17 +252,20 @@ def _estimates(
     return {name: value for name, value in found.items() if value is not None}
 
 
-def _log_ratio(rows: pd.DataFrame, numerator: str, denominator: str) -> pd.Series:
+def log_ratio(rows: pd.DataFrame, numerator: str, denominator: str) -> pd.Series:
+    """Compute the logarithm of the ratio of two errors of each run."""
     quotient = rows[numerator].astype(float) / rows[denominator].astype(float)
     return quotient.map(math.log)
 
 
-def _median_ratio(rows: pd.DataFrame, numerator: str, denominator: str) -> float:
+def median_ratio(rows: pd.DataFrame, numerator: str, denominator: str) -> float:
+    """Compute the median of :func:`ratios`; NaN if there is none."""
     values = ratios(rows, numerator, denominator)
     return float(np.median(values)) if values.size else float("nan")
 
 
-def _as_table(described: dict[str, dict[tuple[str, str], float]], name: str) -> pd.DataFrame:
+def as_table(described: dict[str, dict[tuple[str, str], float]], name: str) -> pd.DataFrame:
+    """Make a table of described rows, with two levels of columns."""
     table = pd.DataFrame.from_dict(described, orient="index")
     table.columns = pd.MultiIndex.from_tuples(list(next(iter(described.values()))))
     table.index.name = name

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from workbench.experiments.runs.schemes import scheme_name
@@ -18,10 +19,17 @@ from workbench.reproduction.beyond.optimizer_runs import (
     PROJECTORS,
     scheme_of,
 )
+from workbench.reproduction.claims import Evidence
+from workbench.reproduction.costa2018.results import evidence_of, geometric_mean, listed
 
 #: A method of the comparison: its name, its optimizer and its search for markers.
 _Kind = tuple[str, str, str | None]
 
+#: What is claimed of searches for markers.
+_MARKER_CLAIMS = {
+    "move": "ours:moving-markers-helps",
+    "exchange": "ours:exchanging-markers-helps",
+}
 #: Relative difference of errors that is rounding and not a worse result.
 _ROUNDING = 1e-9
 #: Name of the rows over all projectors.
@@ -168,6 +176,50 @@ def ratio_boxes(compared: pd.DataFrame) -> dict[str, dict[str, Box]]:
         }
         for method in OURS
     }
+
+
+def evidence(table: pd.DataFrame) -> dict[str, Evidence]:
+    """Give the evidence on the claims about our optimizers.
+
+    Parameters
+    ----------
+    table : DataFrame
+        From :func:`workbench.experiments.grid.run_grid`.
+
+    Returns
+    -------
+    dict of str to Evidence
+        By claim.
+    """
+    optimized, moved = compare_optimizers(table), compare_markers(table)
+    works = optimized.loc[optimized["method"] == "global", "effort_ratio"]
+    found = {
+        "ours:better-optimizer": _median_over_clips(
+            optimized, "global", f"Its effort is {works.mean():.2f} of that of Alg. 12 in the mean."
+        )
+    }
+    for search, claim in _MARKER_CLAIMS.items():
+        rows = moved[moved["method"] == search]
+        costs = f"At {rows['effort_ratio'].mean():.0f} times the effort of the global optimizer."
+        found[claim] = _median_over_clips(moved, search, costs if len(rows) else "")
+    return found
+
+
+def _median_over_clips(compared: pd.DataFrame, method: str, note: str) -> Evidence:
+    """Estimate the median over clips of the geometric mean over projectors of error ratios."""
+    rows = compared[compared["method"] == method]
+    if rows.empty:
+        return Evidence(None, note="No run of it is finished.")
+    by_projector = rows.pivot_table("error_ratio", "dataset", "projector", aggfunc="mean")
+    projectors = list(by_projector.columns)
+    means = geometric_mean(by_projector).dropna()
+    if means.empty:
+        return Evidence(None, note="No clip has finished runs with all projectors.")
+    return evidence_of(
+        means,
+        lambda values: float(np.median(values)),
+        f"{listed(projectors)}. {note}",
+    )
 
 
 def _side_by_side(

@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
+from workbench.datasets.catalogue import lookup
 from workbench.errors import WorkbenchError
+from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.schemes import SchemeRun
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
+from workbench.reproduction.profiles import motion_clips
 from workbench.schemes import SpatialScheme
 
 #: What all others are compared with.
@@ -19,11 +22,55 @@ BEFORE_MARKERS = "global"
 
 PROJECTORS = {"PCA": "pca", "MDS": "mds", "Isomap": "isomap", "LLE": "lle", "t-SNE": "tsne"}
 
-#: Projectors on which the quick profile searches for markers, which takes ten times as long as
-#: all the optimizers together.
-_QUICK_MARKER_PROJECTORS = ("PCA", "Isomap")
-#: On how many clips markers are searched for.
-_MARKER_CLIPS = {"quick": 2, "full": 6}
+#: The quick profile takes the projectors that are fast, and one of them to search for markers,
+#: which takes ten times as long as all optimizers together.
+_QUICK_PROJECTORS = ("PCA", "Isomap", "LLE")
+_QUICK_MARKER_PROJECTORS = ("PCA",)
+#: On how many clips the optimizers are compared in the quick profile, and markers searched for.
+_QUICK_CLIPS = 6
+_MARKER_CLIPS = {"quick": 1, "full": 6}
+
+
+def planned_runs(
+    profile: str,
+    seed: int,
+    *,
+    clips: Iterable[str] | None = None,
+    projectors: Iterable[str] | None = None,
+) -> list[Run]:
+    """List the runs that the notebook reads.
+
+    Parameters
+    ----------
+    profile : {"quick", "full"}
+        Which clips and projectors.
+    seed : int
+        Seed of the projectors that take one.
+    clips, projectors : iterable of str, optional
+        In place of the profile's.
+
+    Returns
+    -------
+    list of Run
+    """
+    chosen = clips_of(profile) if clips is None else list(clips)
+    names = projectors_of(profile) if projectors is None else list(projectors)
+    with_markers = marker_projectors(profile) if projectors is None else names
+    return [
+        *optimizer_runs(chosen, seed=seed, projectors=names),
+        *marker_runs(marker_clips(chosen, profile), seed=seed, projectors=with_markers),
+    ]
+
+
+def clips_of(profile: str) -> list[str]:
+    """Choose the clips of a profile: all of the full one, the shortest of the quick one."""
+    clips = motion_clips(profile)
+    return _shortest(clips, _QUICK_CLIPS) if profile == "quick" else clips
+
+
+def projectors_of(profile: str) -> list[str]:
+    """Choose the projectors of a profile."""
+    return list(_QUICK_PROJECTORS if profile == "quick" else PROJECTORS)
 
 
 def scheme_of(projector: str, optimizer: str | None, markers: str | None = None) -> SpatialScheme:
@@ -81,14 +128,23 @@ def marker_runs(
 
 
 def marker_clips(clips: list[str], profile: str) -> list[str]:
-    """Choose a few clips, spread over those of a profile, on which markers are searched for."""
-    step = -(-len(clips) // _MARKER_CLIPS[profile])
-    return clips[::step]
+    """Choose the clips on which markers are searched for.
+
+    They are the shortest, because the search takes as long as the square of the length.
+    """
+    return _shortest(clips, _MARKER_CLIPS[profile])
 
 
 def marker_projectors(profile: str) -> list[str]:
     """Choose the projectors with which a profile searches for markers."""
     return list(_QUICK_MARKER_PROJECTORS if profile == "quick" else PROJECTORS)
+
+
+def _shortest(clips: list[str], count: int) -> list[str]:
+    """Take the shortest clips, in their order; a user's own, of unknown length, come last."""
+    lengths = {clip: getattr(lookup(clip), "frames", None) or float("inf") for clip in clips}
+    chosen = sorted(clips, key=lambda clip: lengths[clip])[:count]
+    return [clip for clip in clips if clip in chosen]
 
 
 def _projectors(names: Iterable[str] | None) -> list[str]:
