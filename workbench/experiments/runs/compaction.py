@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 import warnings
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -90,6 +91,7 @@ class CompactionRun(SchemeRun):
             ``plane_errors`` (n_frames,).
         """
         space = _poses(shared)
+        start = time.perf_counter()
         with warnings.catch_warnings(record=True) as caught:
             result = run_from_shared_projection(
                 shared, self.scheme, self.seed, ratio=self.ratio, count=self.count
@@ -102,6 +104,7 @@ class CompactionRun(SchemeRun):
             "file_error": file_error,
             "bytes": n_bytes,
             "warnings": "; ".join(messages(caught)),
+            "seconds_total": time.perf_counter() - start,
         }
         arrays: Arrays = {"errors": result.errors, "control_points": result.control_points}
         if isinstance(result, SpatialResult):
@@ -186,6 +189,7 @@ class EqualSizeRun:
             Empty.
         """
         space = _poses(shared)
+        start_seconds = time.perf_counter()
         tried: dict[int, tuple[float, int]] = {}
 
         def bytes_with(count: int) -> int:
@@ -209,6 +213,7 @@ class EqualSizeRun:
             "reference_n_control_points": len(result.control_points),
             "reference_file_error": error,
             "reference_bytes": n_bytes,
+            "seconds_total": time.perf_counter() - start_seconds,
         }
         return row, {}
 
