@@ -11,8 +11,8 @@ from plotly.subplots import make_subplots
 from workbench.errors import WorkbenchError
 from workbench.figures.style import BLACK, PALETTE, TEMPLATE
 
-#: Pixels of a panel, and above and below all of them.
-_PANEL_HEIGHT, _AROUND = 260, 120
+#: Pixels of a panel, above and below all of them, and of a title.
+_PANEL_HEIGHT, _TOP, _BOTTOM, _TITLE = 260, 76, 44, 26
 
 
 @dataclass(frozen=True)
@@ -43,8 +43,8 @@ def bar_panels(
     Parameters
     ----------
     panels : mapping of str to mapping of str to mapping of str to float
-        For each panel, by its title, the series; for each series, which has one colour in
-        all panels, its value in each group.
+        For each panel, by its title (which may be empty), the series; for each series, which
+        has one colour in all panels, its value in each group.
     y_title : str
         What the values are. Bars start at 0.
     colors : mapping of str to str, optional
@@ -69,12 +69,13 @@ def bar_panels(
         raise WorkbenchError("panels: got no bar to draw")
     chosen = {name: PALETTE[index % len(PALETTE)] for index, name in enumerate(names)}
     chosen.update(colors or {})
-    height = _AROUND + _PANEL_HEIGHT * len(panels)
+    top = _TOP if any(panels) else _TOP - _TITLE
+    height = top + _BOTTOM + _PANEL_HEIGHT * len(panels)
     figure = make_subplots(
         rows=len(panels),
         cols=1,
-        subplot_titles=list(panels),
-        vertical_spacing=64 / (height - _AROUND) if len(panels) > 1 else 0.0,
+        subplot_titles=list(panels) if any(panels) else None,
+        vertical_spacing=64 / (height - top - _BOTTOM) if len(panels) > 1 else 0.0,
     )
     shown: set[str] = set()
     for row, series in enumerate(panels.values(), 1):
@@ -97,15 +98,15 @@ def bar_panels(
         _draw_reference(figure, reference, len(panels))
     figure.update_annotations(font={"size": 13, "color": BLACK}, x=0, xanchor="left")
     figure.update_xaxes(showgrid=False, ticks="")
-    top = max([*values, *([reference.value] if reference else [])])
-    figure.update_yaxes(title_text=y_title, range=[0, 1.06 * top], nticks=6)
+    highest = max([*values, *([reference.value] if reference else [])])
+    figure.update_yaxes(title_text=y_title, range=[0, 1.06 * highest], nticks=6)
     return figure.update_layout(
         template=TEMPLATE,
         height=height,
         bargap=0.22,
         bargroupgap=0.06,
-        legend={"y": 1 + 34 / (height - _AROUND), "traceorder": "normal"},
-        margin={"t": 76, "b": 44},
+        legend={"y": 1 + (top - 42) / (height - top - _BOTTOM), "traceorder": "normal"},
+        margin={"t": top, "b": _BOTTOM},
     )
 
 
