@@ -12,7 +12,7 @@ from workbench.experiments.progress import ProgressLine
 
 def test_the_estimate_follows_the_work_done(capsys: pytest.CaptureFixture, monkeypatch):
     """A quarter of the work took 20 s, so three quarters take a minute."""
-    now = iter([100.0, 120.0])
+    now = iter([100.0, 120.0, 180.0])
     monkeypatch.setattr(time, "monotonic", lambda: next(now))
     line = ProgressLine("Grid")
     line(Advance(0, 8, 0.0, "0 found finished"))

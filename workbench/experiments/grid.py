@@ -3,42 +3,21 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from concurrent.futures.process import BrokenProcessPool
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import pandas as pd
 
 from workbench.errors import WorkbenchError
+from workbench.experiments.costs import Costs
+from workbench.experiments.execution import Outcome, PlannedRun
+from workbench.experiments.local import execute_here, execute_in_processes
+from workbench.experiments.planning import Data, plan_tasks
+from workbench.experiments.progress import Advance, Progress, Reporter
 from workbench.experiments.runs.base import Run, content_key, space_checksum
-from workbench.experiments.runs.shared import SharedSteps
-from workbench.experiments.store import Arrays, ResultStore, Row
-from workbench.experiments.versions import versions
+from workbench.experiments.store import ResultStore, Row
 
-
-@dataclass(frozen=True)
-class Advance:
-    """How far a grid is.
-
-    Attributes
-    ----------
-    finished, total : int
-        Runs.
-    share : float
-        Estimated share of the work that is done, from 0 to 1; what was found finished is no
-        work.
-    what : str
-        What was just finished.
-    """
-
-    finished: int
-    total: int
-    share: float
-    what: str
-
-
-Progress = Callable[[Advance], None]
+__all__ = ["Advance", "Progress", "describe_failures", "run_grid"]
 
 #: Columns that every table of results has, and has first.
 _COLUMNS = (
@@ -58,24 +37,23 @@ _COLUMNS = (
     "seconds_total",
 )
 
-_Keyed = tuple[str, Run]
-_Data = tuple[str, bool]
-
 
 def run_grid(
     runs: Iterable[Run],
     folder: str | Path,
     *,
     n_jobs: int = 1,
+    scheduler: str | None = None,
     progress: Progress | None = None,
 ) -> pd.DataFrame:
     """Execute runs and gather their results in one table.
 
     Each finished run is stored at once, under a key made of the run, the content of its
     data, the code and the versions that compute it, and is never computed again: a grid that
-    was interrupted, however abruptly, goes on where it was. Runs on one data set are executed
-    together, so that its distances and projections are computed once; data sets are
-    distributed over the processes, the largest first, one numerical thread each.
+    was interrupted, however abruptly, goes on where it was. Runs that share the distances of
+    a data set or a projection are executed together, what takes longest first. Libraries
+    compute in one numerical thread, so that the values do not depend on how many processes
+    there are, or where.
 
     Parameters
     ----------
@@ -86,6 +64,11 @@ def run_grid(
     n_jobs : int
         Number of processes, -1 for all cores. With 1 the runs execute in this process,
         where methods registered in it are known too.
+    scheduler : str, optional
+        Address of a Dask scheduler, such as ``"tcp://127.0.0.1:8786"``, whose workers
+        execute the runs in place of processes of this machine. They need this package in the
+        same version and the data, in a ``WORKBENCH_DATA`` of their own; results are stored
+        here.
     progress : callable, optional
         Called with an :class:`Advance` at the start and whenever runs are finished.
 
@@ -100,54 +83,34 @@ def run_grid(
     Raises
     ------
     WorkbenchError
-        If ``n_jobs`` is neither positive nor -1.
+        If ``n_jobs`` is neither positive nor -1, results cannot be stored in the folder, or
+        the scheduler does not answer or has no workers.
     """
     if n_jobs < 1 and n_jobs != -1:
         raise WorkbenchError(f"n_jobs: got {n_jobs}, want a positive number, or -1 for all cores")
     wanted = list(dict.fromkeys(runs))
     store = ResultStore(folder)
-    keyed, sizes, rows = _identify(wanted)
-    for run, key in keyed.items():
-        stored = store.read(key)
-        if stored is not None:
-            rows[run] = _done(key, stored)
-    groups = _groups([(key, run) for run, key in keyed.items() if run not in rows], sizes)
-    work = {run: float(sizes[run.dataset, run.standardize]) for group in groups for _, run in group}
-    report = _Reporter(progress, len(wanted), work)
-    report(len(rows), [], f"{len(keyed) - len(work)} found finished")
-    for finished in _execute_groups(groups, store.folder, n_jobs):
-        rows.update(finished)
-        report(len(rows), finished, _summary(finished))
-    for run, key in keyed.items():
-        if run not in rows:
-            stored = store.read(key)
-            rows[run] = (
-                _done(key, stored)
-                if stored is not None
-                else _failed(run, key, "the process that ran it ended (out of memory?)")
-            )
-    if keyed:
-        store.write_table()
+    planned, sizes, rows = _plan(wanted)
+    costs = Costs()
+    missing = []
+    for item in planned:
+        stored = store.read(item.key)
+        if stored is None:
+            missing.append(item)
+        else:
+            rows[item.run] = _done(item.key, stored)
+            _learn(costs, item, sizes, stored)
+    work = {item.run: sizes[item.run.dataset, item.run.standardize] for item in missing}
+    report = Reporter(progress, len(wanted), work, costs)
+    report.start(f"{len(planned) - len(missing)} found finished")
+    for outcome in _execute(missing, sizes, costs, store, n_jobs, scheduler):
+        rows[outcome.planned.run] = _row(outcome)
+        report.finished(outcome.planned.run, _seconds(outcome), _summary(outcome))
+    if planned:
+        _write_table(store)
     table = pd.DataFrame([rows[run] for run in wanted])
     # Where nothing was run or all failed, a reader still finds the columns that it asks for.
     return table.reindex(columns=list(dict.fromkeys([*_COLUMNS, *table.columns])))
-
-
-class _Reporter:
-    """Turn finished runs into calls of a progress function, where there is one."""
-
-    def __init__(self, progress: Progress | None, total: int, work: dict[Run, float]) -> None:
-        self._progress = progress
-        self._total = total
-        self._work = work
-        self._done = 0.0
-
-    def __call__(self, finished: int, runs: Iterable[Run], what: str) -> None:
-        self._done += sum(self._work.get(run, 0.0) for run in runs)
-        all_work = sum(self._work.values())
-        share = self._done / all_work if all_work else 1.0
-        if self._progress is not None:
-            self._progress(Advance(finished, self._total, share, what))
 
 
 def describe_failures(table: pd.DataFrame) -> str:
@@ -169,16 +132,14 @@ def describe_failures(table: pd.DataFrame) -> str:
     return f"{len(failed)} of {len(table)} runs failed; the first: {failed['message'].iloc[0]}"
 
 
-def _identify(
-    runs: Sequence[Run],
-) -> tuple[dict[Run, str], dict[_Data, int], dict[Run, Row]]:
+def _plan(runs: Sequence[Run]) -> tuple[list[PlannedRun], dict[Data, int], dict[Run, Row]]:
     """Find the key of each run and the size of its data, and the rows of those without data."""
     from workbench.datasets import load_space
 
-    keyed: dict[Run, str] = {}
-    sizes: dict[_Data, int] = {}
+    planned: list[PlannedRun] = []
+    sizes: dict[Data, int] = {}
     failed: dict[Run, Row] = {}
-    by_data: dict[_Data, list[Run]] = {}
+    by_data: dict[Data, list[Run]] = {}
     for run in runs:
         by_data.setdefault((run.dataset, run.standardize), []).append(run)
     for (dataset, standardize), group in by_data.items():
@@ -189,93 +150,64 @@ def _identify(
             continue
         checksum = space_checksum(space)
         sizes[dataset, standardize] = len(space)
-        keyed.update({run: content_key(run, checksum) for run in group})
-    return keyed, sizes, failed
+        planned += [PlannedRun(run, content_key(run, checksum), checksum) for run in group]
+    return planned, sizes, failed
 
 
-def _groups(runs: Sequence[_Keyed], sizes: dict[_Data, int]) -> list[list[_Keyed]]:
-    """Put the runs of one data set together, the data sets that take longest first."""
-    groups: dict[_Data, list[_Keyed]] = {}
-    for key, run in runs:
-        groups.setdefault((run.dataset, run.standardize), []).append((key, run))
-    return sorted(
-        groups.values(),
-        key=lambda group: -len(group) * sizes[group[0][1].dataset, group[0][1].standardize] ** 2,
-    )
-
-
-def _execute_groups(
-    groups: Sequence[list[_Keyed]], folder: Path, n_jobs: int
-) -> Iterator[dict[Run, Row]]:
-    if n_jobs == 1 or len(groups) < 2:
-        for group in groups:
-            yield from _execute_group(group, folder)
+def _execute(
+    runs: Sequence[PlannedRun],
+    sizes: dict[Data, int],
+    costs: Costs,
+    store: ResultStore,
+    n_jobs: int,
+    scheduler: str | None,
+) -> Iterator[Outcome]:
+    """Execute runs where they are to be executed, and store them."""
+    if not runs:
         return
-    unfinished = list(groups)
-    try:
-        for rows in _execute_in_processes(groups, folder, n_jobs):
-            unfinished = [group for group in unfinished if group[0][1] not in rows]
-            yield rows
-    except BrokenProcessPool:
-        warnings.warn(
-            "a worker process ended; what was not finished is run again, one data set at a time",
-            stacklevel=2,
-        )
+    store.require_writable()
+    if scheduler is not None:
+        from workbench.experiments.cluster import Cluster
+
+        with Cluster(scheduler) as cluster:
+            tasks = plan_tasks(runs, sizes, costs, cluster.n_workers())
+            yield from cluster.execute(tasks, store)
+        return
+    if n_jobs == -1:
+        from joblib import cpu_count
+
+        n_jobs = cpu_count()
+    tasks = plan_tasks(runs, sizes, costs, n_jobs)
+    if n_jobs == 1 or len(tasks) == 1:
+        yield from execute_here(tasks, store.folder)
     else:
-        return
-    # The end of one worker ends the whole pool. Alone in a pool, a group can only end itself.
-    for group in unfinished:
-        try:
-            yield from _execute_in_processes([group], folder, n_jobs)
-        except BrokenProcessPool:
-            names = f"{group[0][1].dataset} ({len(group)} runs)"
-            # What was stored before counts; the caller names the runs that are missing.
-            warnings.warn(f"the worker process of {names} ended", stacklevel=2)
+        yield from execute_in_processes(tasks, store.folder, n_jobs)
 
 
-def _execute_in_processes(
-    groups: Sequence[list[_Keyed]], folder: Path, n_jobs: int
-) -> Iterator[dict[Run, Row]]:
-    from joblib import Parallel, delayed, parallel_config
-
-    with parallel_config("loky", n_jobs=n_jobs, inner_max_num_threads=1):
-        pool = Parallel(return_as="generator_unordered")
-        yield from pool(delayed(_execute_whole_group)(group, folder) for group in groups)
+def _write_table(store: ResultStore) -> None:
+    """Gather all results of the folder; without room for the table they are there all the same."""
+    try:
+        store.write_table()
+    except OSError as error:
+        warnings.warn(f"{store.folder}: runs.parquet was not written ({error})", stacklevel=3)
 
 
-def _execute_whole_group(group: Sequence[_Keyed], folder: Path) -> dict[Run, Row]:
-    rows: dict[Run, Row] = {}
-    for row in _execute_group(group, folder):
-        rows.update(row)
-    return rows
+def _learn(costs: Costs, planned: PlannedRun, sizes: dict[Data, int], row: Row) -> None:
+    seconds = row.get("seconds_spent")
+    if seconds is not None:
+        run = planned.run
+        costs.learn(run, sizes[run.dataset, run.standardize], seconds)
 
 
-def _execute_group(group: Sequence[_Keyed], folder: Path) -> Iterator[dict[Run, Row]]:
-    """Execute the runs of one data set, storing each as soon as it is finished."""
-    from workbench.datasets import load_space
-
-    store = ResultStore(folder)
-    shared: SharedSteps | None = None
-    for key, run in group:
-        # Another process may have finished it since the grid was planned.
-        row = store.read(key)
-        if row is None:
-            try:
-                if shared is None:
-                    space = load_space(run.dataset, standardize=run.standardize)
-                    shared = SharedSteps(space)
-                row, arrays = _execute(run, shared)
-                store.write(key, row, arrays)
-            except Exception as error:  # whatever a method raises must not stop the others
-                yield {run: _failed(run, key, f"{type(error).__name__}: {error}")}
-                continue
-        yield {run: _done(key, row)}
+def _seconds(outcome: Outcome) -> float | None:
+    return None if outcome.row is None else outcome.row.get("seconds_spent")
 
 
-def _execute(run: Run, shared: SharedSteps) -> tuple[Row, Arrays]:
-    values, arrays = run.execute(shared)
-    made_with = {f"version_{name}": value for name, value in versions().items()}
-    return {**run.specification(), **values, **made_with}, arrays
+def _row(outcome: Outcome) -> Row:
+    planned = outcome.planned
+    if outcome.row is None:
+        return _failed(planned.run, planned.key, outcome.message)
+    return _done(planned.key, outcome.row)
 
 
 def _done(key: str, row: Row) -> Row:
@@ -291,7 +223,5 @@ def _failed(run: Run, key: str, message: str) -> Row:
     }
 
 
-def _summary(rows: dict[Run, Row]) -> str:
-    names = sorted({run.dataset for run in rows})
-    failed = sum(row["status"] == "failed" for row in rows.values())
-    return ", ".join(names) + (f" ({failed} failed)" if failed else "")
+def _summary(outcome: Outcome) -> str:
+    return outcome.planned.run.dataset + (" (failed)" if outcome.row is None else "")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import io
 import json
+import os
 import warnings
 from collections.abc import Iterator
 from pathlib import Path
@@ -32,9 +33,9 @@ class ResultStore:
     """A folder of results, one file for each run, named by its content key.
 
     A row of values is a JSON file with its own checksum; arrays (embeddings) lie beside it
-    in an ``.npz`` file, written first, whose checksum the row carries. So a result that can
-    be read is complete, whenever the process that wrote it was ended, and one that was
-    damaged later is noticed.
+    in an ``.npz`` file, written first and named by its checksum, which the row carries. So a
+    result that can be read is complete, whenever the process that wrote it was ended and
+    whoever wrote it too, and one that was damaged later is noticed.
 
     Parameters
     ----------
@@ -44,6 +45,21 @@ class ResultStore:
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
+
+    def require_writable(self) -> None:
+        """Make the folder, before anything is computed that could not be stored.
+
+        Raises
+        ------
+        DataError
+            If it cannot be made or written to.
+        """
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise DataError(f"{self.folder}: cannot be made ({error.strerror})") from None
+        if not os.access(self.folder, os.W_OK | os.X_OK):
+            raise DataError(f"{self.folder}: results cannot be stored there, it is read-only")
 
     def write(self, key: str, row: Row, arrays: Arrays) -> None:
         """Store a finished run.
@@ -57,16 +73,18 @@ class ResultStore:
         arrays : dict of str to ndarray
             What does not fit a row; may be empty.
         """
-        packed = b""
+        packed, checksum = b"", None
         if arrays:
             buffer = io.BytesIO()
             np.savez_compressed(buffer, **arrays)  # type: ignore[arg-type]  # arrays by name
             packed = buffer.getvalue()
-            write_atomically(self._arrays_path(key), packed)
-        content = {"key": key, "row": row, "arrays": _sha256(packed) if arrays else None}
+            checksum = _sha256(packed)
+        content = {"key": key, "row": row, "arrays": checksum}
         record = {**content, "sha256": _sha256(_canonical(content))}
         # The file keeps the order of the columns, on which the checksum does not depend.
         text = json.dumps(record, allow_nan=False, indent=1) + "\n"
+        if checksum is not None:
+            write_atomically(self._arrays_path(key, checksum), packed)
         write_atomically(self._row_path(key), text.encode())
 
     def read(self, key: str) -> Row | None:
@@ -80,8 +98,9 @@ class ResultStore:
         record = self._record(self._row_path(key))
         if record is None:
             return None
-        if record["arrays"] is not None and self._packed(key, record["arrays"]) is None:
-            warnings.warn(f"{self._arrays_path(key)} is damaged", stacklevel=2)
+        checksum = record["arrays"]
+        if checksum is not None and self._packed(key, checksum) is None:
+            warnings.warn(f"{self._arrays_path(key, checksum)} is damaged", stacklevel=2)
             return None
         return dict(record["row"])
 
@@ -133,12 +152,15 @@ class ResultStore:
     def _row_path(self, key: str) -> Path:
         return self.folder / f"{key}.json"
 
-    def _arrays_path(self, key: str) -> Path:
-        return self.folder / f"{key}.npz"
+    def _arrays_path(self, key: str, checksum: str) -> Path:
+        # Two processes that finish the same run at once do not mix what they write.
+        return self.folder / f"{key}-{checksum[:16]}.npz"
 
     def _packed(self, key: str, checksum: str | None) -> bytes | None:
+        if checksum is None:
+            return None
         try:
-            packed = self._arrays_path(key).read_bytes()
+            packed = self._arrays_path(key, checksum).read_bytes()
         except OSError:
             return None
         return packed if _sha256(packed) == checksum else None
