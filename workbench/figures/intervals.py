@@ -96,7 +96,7 @@ def interval_plot(
         shared_xaxes=True,
         subplot_titles=[f"<b>{title}</b>" for title in rows],
         row_heights=[float(height) for height in heights],
-        vertical_spacing=_TITLE / total,
+        vertical_spacing=_TITLE / total if len(rows) > 1 else 0.0,
     )
     # A title stands over its rows from the left, where the names of the rows are.
     figure.update_annotations(x=0, xanchor="left", font_size=13)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import pandas as pd
 import pytest
 
 from workbench.errors import WorkbenchError
+from workbench.experiments import bootstrap
 from workbench.experiments.grid import run_grid
 from workbench.experiments.runs.schemes import scheme_name
 from workbench.reproduction.beyond.optimizer_comparison import (
     compare_markers,
     compare_optimizers,
+    evidence,
     higher_runs,
     marker_table,
+    medians_in_words,
     optimizer_table,
     ratio_boxes,
 )
@@ -25,9 +29,18 @@ from workbench.reproduction.beyond.optimizer_runs import (
     marker_projectors,
     marker_runs,
     optimizer_runs,
+    planned_runs,
     scheme_of,
+    shortest,
 )
+from workbench.reproduction.claims import all_claims
 from workbench.reproduction.costa2018 import keyframe_errors
+
+
+@pytest.fixture(autouse=True)
+def few_resamples(monkeypatch):
+    """Keep the bootstrap short: no test looks at the ends of an interval."""
+    monkeypatch.setattr(bootstrap, "N_RESAMPLES", 20)
 
 
 def _row(clip: str, optimizer: str | None, error: float, markers=None, **values) -> dict:
@@ -142,15 +155,56 @@ def test_alg12_and_raw_runs_are_those_of_table_5_1():
     assert len(shared) == 2 * len(PROJECTORS)
 
 
-def test_markers_are_searched_on_few_clips():
-    """Two clips of the quick profile and at most six of the full one, all with known runs."""
-    clips = [f"cmu/{number}" for number in range(29)]
-    assert marker_clips(clips, "quick") == ["cmu/0", "cmu/15"]
-    assert 4 <= len(marker_clips(clips, "full")) <= 6
-    assert marker_clips(clips[:1], "full") == clips[:1]
+def test_markers_are_searched_on_the_shortest_clips():
+    """One clip of the quick profile and six of the full one, whose own runs are there too."""
+    clips = ["cmu/05_10", "cmu/02_01", "my/own.bvh", "cmu/09_06"]
+    assert marker_clips(clips, "quick") == ["cmu/09_06"]
+    assert marker_clips(clips, "full") == clips
+    assert shortest(clips, 3) == ["cmu/05_10", "cmu/02_01", "cmu/09_06"]
     assert set(marker_projectors("quick")) < set(marker_projectors("full")) == set(PROJECTORS)
     runs = marker_runs(["cmu/a"], projectors=["PCA"])
     assert [run.scheme.markers for run in runs] == list(MARKER_SEARCHES)
+
+
+def test_planned_runs_have_what_each_search_is_compared_with():
+    """For each run that searches for markers there is that of the global optimizer alone."""
+    runs = planned_runs("quick", 2)
+    assert len(set(runs)) == len(runs) < 90
+    assert len({run.dataset for run in runs}) >= 6
+    searched = [run for run in runs if run.scheme.markers]
+    assert len(searched) == 2
+    for run in searched:
+        assert replace(run, scheme=replace(run.scheme, markers=None)) in runs
+    assert planned_runs("quick", 2, clips=["cmu/01_01-jump"], projectors=["t-SNE"]) == [
+        *optimizer_runs(["cmu/01_01-jump"], seed=2, projectors=["t-SNE"]),
+        *marker_runs(["cmu/01_01-jump"], seed=2, projectors=["t-SNE"]),
+    ]
+
+
+def test_every_claim_of_the_notebook_has_its_evidence():
+    """Clip a: 0.8, b: 1.0 by the global optimizer; moved 0.75, exchanged 0.5, of one clip."""
+    found = evidence(TABLE)
+    assert set(found) == {
+        name for name, claim in all_claims().items() if claim.notebook == "optimizers"
+    }
+    better = found["ours:better-optimizer"]
+    assert (better.estimate.value, better.estimate.n_units) == (pytest.approx(0.9), 2)
+    assert "effort is 0.20 of that of Alg. 12" in better.note
+    assert found["ours:moving-markers-helps"].estimate.value == pytest.approx(0.75)
+    assert found["ours:exchanging-markers-helps"].estimate.value == pytest.approx(0.5)
+
+
+def test_without_searches_there_is_no_evidence_on_them():
+    """A claim whose runs are missing is not decidable, and the rest is judged."""
+    found = evidence(TABLE[~TABLE["scheme"].str.contains("markers")])
+    assert found["ours:moving-markers-helps"].estimate is None
+    assert found["ours:better-optimizer"].estimate.n_units == 2
+
+
+def test_medians_are_said_in_words():
+    """The alternative text holds the numbers of the boxes."""
+    text = medians_in_words(compare_optimizers(TABLE))
+    assert text == "Medians, local: PCA 1.050. Medians, global: PCA 0.900."
 
 
 def test_an_unknown_projector_is_refused():

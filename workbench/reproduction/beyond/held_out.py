@@ -10,6 +10,7 @@ from workbench.errors import WorkbenchError
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.held_out import HeldOutRun
 from workbench.reproduction import profiles
+from workbench.reproduction.beyond.optimizer_runs import shortest
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
 
 #: Projectors by their names in Table 5.1 of Costa 2018.
@@ -34,12 +35,11 @@ TABLES = (
 #: Share of control points at which tables are judged too: 3 % of Iris are three rows.
 TABLE_RATIO = 0.1
 
-#: The quick profile takes what is bundled and what is projected fast, every third clip, and
+#: The quick profile takes what is bundled and what is projected fast, the shortest clips, and
 #: tables at one share of control points.
 _QUICK_PROJECTORS = ("PCA", "Isomap")
 _QUICK_TABLES = ("uci/iris", "uci/wine", "uci/ionosphere")
-_QUICK_CLIP_STEP = 3
-_N_SEEDS = {"quick": 1, "full": 2}
+_QUICK_CLIPS = 4
 
 
 def planned_runs(
@@ -55,9 +55,9 @@ def planned_runs(
     Parameters
     ----------
     profile : {"quick", "full"}
-        Which data and projectors, and from how many seeds.
+        Which data and projectors.
     seed : int
-        The first seed.
+        Seed of the splits, of the control points of tables and of projectors.
     clips, tables, projectors : iterable of str, optional
         In place of the profile's.
 
@@ -70,7 +70,7 @@ def planned_runs(
             clips_of(profile) if clips is None else clips,
             tables_of(profile) if tables is None else tables,
             projectors=projectors_of(profile) if projectors is None else projectors,
-            seeds=seeds_of(profile, seed),
+            seed=seed,
             table_ratios=table_ratios_of(profile),
         )
     )
@@ -81,7 +81,7 @@ def held_out_runs(
     tables: Iterable[str],
     *,
     projectors: Iterable[str],
-    seeds: Sequence[int],
+    seed: int,
     table_ratios: Sequence[float] = (RATIO, TABLE_RATIO),
 ) -> list[HeldOutRun]:
     """List the runs on clips, split in two ways, and on tables, raw and standardised.
@@ -92,8 +92,8 @@ def held_out_runs(
         Names of data sets.
     projectors : iterable of str
         Some of :data:`PROJECTORS`.
-    seeds : sequence of int
-        Each draws another split, and other control points of tables.
+    seed : int
+        Another one draws another split, and other control points of tables.
     table_ratios : sequence of float
         Shares of control points for tables.
 
@@ -116,21 +116,19 @@ def held_out_runs(
         for clip in clips
         for projector in methods
         for split in ("blocks", "random")
-        for seed in seeds
     ] + [
         HeldOutRun(table, projector, ratio=ratio, seed=seed, standardized=standardized)
         for table in tables
         for projector in methods
         for standardized in (False, True)
         for ratio in table_ratios
-        for seed in seeds
     ]
 
 
 def clips_of(profile: str) -> list[str]:
     """Choose the clips of a profile."""
     clips = profiles.motion_clips(profile)
-    return clips[::_QUICK_CLIP_STEP] if profile == "quick" else clips
+    return shortest(clips, _QUICK_CLIPS) if profile == "quick" else clips
 
 
 def tables_of(profile: str) -> list[str]:
@@ -143,11 +141,6 @@ def tables_of(profile: str) -> list[str]:
 def projectors_of(profile: str) -> list[str]:
     """Choose the projectors of a profile."""
     return list(_QUICK_PROJECTORS if profile == "quick" else PROJECTORS)
-
-
-def seeds_of(profile: str, seed: int) -> list[int]:
-    """Choose the seeds of a profile, from the one that is asked for."""
-    return list(range(seed, seed + _N_SEEDS[profile]))
 
 
 def table_ratios_of(profile: str) -> list[float]:

@@ -48,7 +48,7 @@ METHODS = {
 #: Error of the poorest sensible reconstruction.
 MEAN_SAMPLE = "error_mean_sample"
 
-_MAPS = {"five nearest": "mean", "nearest": "nearest", "RBF": "rbf"}
+_MAPS = {"five nearest": "mean", "nearest": "nearest", "RBFP": "rbf"}
 
 
 def finished(table: pd.DataFrame, ratio: float = RATIO) -> pd.DataFrame:
@@ -87,7 +87,7 @@ def finished(table: pd.DataFrame, ratio: float = RATIO) -> pd.DataFrame:
 
 
 def ratios(rows: pd.DataFrame, numerator: str, denominator: str) -> NDArray[np.float64]:
-    """Compute ratios of two errors for each data set and seed.
+    """Compute ratios of two errors for each data set.
 
     Parameters
     ----------
@@ -98,23 +98,22 @@ def ratios(rows: pd.DataFrame, numerator: str, denominator: str) -> NDArray[np.f
 
     Returns
     -------
-    ndarray of shape (n_datasets, n_seeds)
+    ndarray of shape (n_datasets,)
         Geometric means over what else the runs differ in: projectors, and the scaling of a
-        table. Data sets without all seeds are left out; empty if none is left.
+        table. Runs without one of the errors are left out; empty if none is left.
     """
-    logs = rows.assign(value=log_ratio(rows, numerator, denominator))
-    means = logs.pivot_table("value", "dataset", "seed", aggfunc="mean")
-    values: NDArray[np.float64] = np.exp(means.dropna().to_numpy(dtype=np.float64))
+    logs = log_ratio(rows, numerator, denominator)
+    values: NDArray[np.float64] = np.exp(logs.groupby(rows["dataset"]).mean().dropna().to_numpy())
     return values
 
 
 def estimate(rows: pd.DataFrame, numerator: str, denominator: str) -> Estimate | None:
-    """Estimate the median of :func:`ratios` with an interval over data sets and seeds.
+    """Estimate the median of :func:`ratios` with an interval over data sets.
 
     None if there is no value.
     """
     values = ratios(rows, numerator, denominator)
-    return bootstrap(values, _median, seeds=True) if values.size else None
+    return bootstrap(values, _median) if values.size else None
 
 
 def _median(values: NDArray[np.float64]) -> float:
@@ -156,7 +155,7 @@ def gain_table(rows: pd.DataFrame) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        One row for each setting and projector; medians over data sets and seeds of the error
+        One row for each setting and projector; medians over data sets of the error
         by Alg. 12 relative to that of raw positions, and to raw ones placed by the
         projector's own ``transform``.
     """

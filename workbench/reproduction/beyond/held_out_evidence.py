@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
@@ -97,15 +98,23 @@ def explanation_table(rows: pd.DataFrame) -> pd.DataFrame:
             ("positions that neighbours leave open", "optimized / raw"): float(
                 np.exp(open_part.median())
             ),
-            ("rank correlation of the held-out ratio with", "what is left open"): held_out.corr(
-                open_part, method="spearman"
+            ("rank correlation of the held-out ratio with", "what is left open"): _rank_correlation(
+                held_out, open_part
             ),
-            ("rank correlation of the held-out ratio with", "distance to the known"): held_out.corr(
-                distance, method="spearman"
-            ),
+            (
+                "rank correlation of the held-out ratio with",
+                "distance to the known",
+            ): _rank_correlation(held_out, distance),
             ("", "runs"): len(some),
         }
     return as_table(described, "setting")
+
+
+def _rank_correlation(first: pd.Series, second: pd.Series) -> float:
+    """Compute Spearman's correlation; NaN where one does not vary, which defines none."""
+    if first.nunique() < 2 or second.nunique() < 2:
+        return math.nan
+    return float(first.corr(second, method="spearman"))
 
 
 def describe_data(table: pd.DataFrame) -> str:
@@ -119,9 +128,7 @@ def describe_data(table: pd.DataFrame) -> str:
         for kind, found in (("CMU clip", clips), ("UCI table", tables))
         if found
     ]
-    n_seeds = rows["seed"].nunique()
-    splits = "1 split" if n_seeds == 1 else f"{n_seeds} splits"
-    text = f"{' and '.join(parts)}, {splits} of each; 70 % to train with."
+    text = f"{' and '.join(parts)}; 70 % of the samples to train with."
     return f"{text} {describe_failures(table)}".strip()
 
 

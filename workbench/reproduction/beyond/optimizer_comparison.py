@@ -178,6 +178,16 @@ def ratio_boxes(compared: pd.DataFrame) -> dict[str, dict[str, Box]]:
     }
 
 
+def medians_in_words(compared: pd.DataFrame) -> str:
+    """Say the medians of :func:`ratio_boxes`, for those who do not see the figure."""
+    return " ".join(
+        f"Medians, {method}: "
+        + ", ".join(f"{name} {box.median:.3f}" for name, box in boxes.items())
+        + "."
+        for method, boxes in ratio_boxes(compared).items()
+    )
+
+
 def evidence(table: pd.DataFrame) -> dict[str, Evidence]:
     """Give the evidence on the claims about our optimizers.
 

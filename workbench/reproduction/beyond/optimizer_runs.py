@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 
 from workbench.datasets.catalogue import lookup
 from workbench.errors import WorkbenchError
@@ -65,7 +66,7 @@ def planned_runs(
 def clips_of(profile: str) -> list[str]:
     """Choose the clips of a profile: all of the full one, the shortest of the quick one."""
     clips = motion_clips(profile)
-    return _shortest(clips, _QUICK_CLIPS) if profile == "quick" else clips
+    return shortest(clips, _QUICK_CLIPS) if profile == "quick" else clips
 
 
 def projectors_of(profile: str) -> list[str]:
@@ -132,7 +133,7 @@ def marker_clips(clips: list[str], profile: str) -> list[str]:
 
     They are the shortest, because the search takes as long as the square of the length.
     """
-    return _shortest(clips, _MARKER_CLIPS[profile])
+    return shortest(clips, _MARKER_CLIPS[profile])
 
 
 def marker_projectors(profile: str) -> list[str]:
@@ -140,9 +141,9 @@ def marker_projectors(profile: str) -> list[str]:
     return list(_QUICK_MARKER_PROJECTORS if profile == "quick" else PROJECTORS)
 
 
-def _shortest(clips: list[str], count: int) -> list[str]:
-    """Take the shortest clips, in their order; a user's own, of unknown length, come last."""
-    lengths = {clip: getattr(lookup(clip), "frames", None) or float("inf") for clip in clips}
+def shortest(clips: Sequence[str], count: int) -> list[str]:
+    """Take the shortest clips, in their order; a user's own, of unknown length, count as long."""
+    lengths = {clip: getattr(lookup(clip), "frames", None) or math.inf for clip in clips}
     chosen = sorted(clips, key=lambda clip: lengths[clip])[:count]
     return [clip for clip in clips if clip in chosen]
 
