@@ -80,7 +80,8 @@ def plane_with_poses(
     figure.update_layout(template=TEMPLATE, height=310 + 130 * len(poses))
     add_key(figure, seconds)
     return figure.update_layout(
-        coloraxis_colorbar={"x": 0.0, "xanchor": "left", "len": 0.4}, legend_x=0.46
+        coloraxis_colorbar={"x": 0.0, "xanchor": "left", "len": 0.4},
+        legend={"x": 0.0, "xanchor": "left"},
     )
 
 

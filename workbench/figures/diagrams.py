@@ -126,7 +126,7 @@ def draw_diagram(diagram: Diagram) -> go.Figure:
     Returns
     -------
     plotly.graph_objects.Figure
-        Coordinates are pixels, so that texts fit their boxes; a narrower window shrinks it.
+        Of a width of its own, at most 1000 pixels, so that texts fit their boxes.
     """
     reach = np.array([BOX_WIDTH / 2 + _MARGIN, BOX_HEIGHT / 2 + _MARGIN])
     corners = [[_center(box) - reach, _center(box) + reach] for box in diagram.boxes]
@@ -148,7 +148,10 @@ def draw_diagram(diagram: Diagram) -> go.Figure:
     figure.update_xaxes(visible=False, range=[left, right], constrain="domain")
     figure.update_yaxes(visible=False, range=[bottom, top], scaleanchor="x")
     return figure.update_layout(
-        height=round((bottom - top) * scale) + 16, margin={"l": 8, "r": 8, "t": 8, "b": 8}
+        # Texts do not shrink with a window, so the diagram does not either: pages scroll it.
+        width=round((right - left) * scale) + 16,
+        height=round((bottom - top) * scale) + 16,
+        margin={"l": 8, "r": 8, "t": 8, "b": 8},
     )
 
 

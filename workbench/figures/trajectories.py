@@ -200,16 +200,11 @@ def add_key(figure: go.Figure, seconds: float | None, *, crosses: bool = False) 
         ticks = ["0 s", f"{seconds / 2:.1f} s", f"{seconds:.1f} s"]
     rows_height = figure.layout.height - 110
     scale = [[i / (len(TIME_COLORS) - 1), color] for i, color in enumerate(TIME_COLORS)]
+    # The legend is below the bar, where it can break into lines on a narrow screen.
     return figure.update_layout(
-        height=rows_height + 120,
-        margin={"l": 12, "r": 12, "t": 36, "b": 84},
-        legend={
-            "orientation": "h",
-            "yanchor": "top",
-            "y": -14 / rows_height,
-            "x": 0.0,
-            "itemsizing": "trace",
-        },
+        height=rows_height + 136,
+        margin={"l": 12, "r": 12, "t": 36, "b": 100},
+        legend={"yanchor": "top", "y": -66 / rows_height, "x": 0.5, "xanchor": "center"},
         coloraxis={
             "colorscale": scale,
             "cmin": 0.0,
@@ -217,11 +212,12 @@ def add_key(figure: go.Figure, seconds: float | None, *, crosses: bool = False) 
             "colorbar": {
                 "orientation": "h",
                 "thickness": 11,
-                "len": 0.42,
-                "x": 1.0,
-                "xanchor": "right",
-                "y": -16 / rows_height,
+                "len": 0.7,
+                "x": 0.5,
+                "xanchor": "center",
+                "y": -8 / rows_height,
                 "yanchor": "top",
+                "ypad": 0,
                 "tickvals": [0.0, 0.5, 1.0],
                 "ticktext": ticks,
                 "title": {"text": "time", "side": "top", "font": {"size": 12}},

@@ -270,7 +270,8 @@ def cyclic_evidence(found: pd.DataFrame) -> Evidence:
     """Estimate how well the curves of cyclic motions close."""
     values = found["one cycle apart / half a cycle apart"].astype(float)
     without = int(values.isna().sum())
-    note = f"Walks and runs, {len(values)} clips, MDS."
+    clips = "1 clip" if len(values) == 1 else f"{len(values)} clips"
+    note = f"Walks and runs, {clips}, MDS."
     if without:
         note += f" In {without} of them no cycle was found, for they are too short or too varied."
     return evidence_of(values.dropna(), np.median, note)
