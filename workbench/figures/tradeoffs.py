@@ -104,7 +104,8 @@ def trade_off(
                 y=list(curve.y),
                 customdata=list(curve.text) or None,
                 text=list(curve.labels) or None,
-                textposition="top right",
+                # On either side in turn, so that those of curves that lie close do not meet.
+                textposition=("bottom left", "top right")[index % 2],
                 textfont={"color": color, "size": 11},
                 mode="lines+markers+text" if len(curve.labels) else "lines+markers",
                 legendgroup=name,
