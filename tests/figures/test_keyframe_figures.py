@@ -82,6 +82,21 @@ def test_strips_have_a_dot_for_each_clip():
     assert list(traces["one clip"].y) == pytest.approx([1, 0], abs=0.3)
 
 
+def test_ratios_are_drawn_on_a_logarithmic_axis():
+    """The line of the reference is placed by value, its note by the logarithm."""
+    figure = strip_plot(
+        {"A": {"x": 4.0}},
+        x_title="ratio",
+        reference=10.0,
+        medians={},
+        sides=("below", "above"),
+        logarithmic=True,
+    )
+    assert figure.layout.xaxis.type == "log"
+    assert figure.layout.shapes[0].x0 == 10.0
+    assert [note.x for note in figure.layout.annotations] == [1.0, 1.0]
+
+
 def test_the_line_of_times_is_that_of_least_squares():
     """Times on a line are met by it; the range is that of the repetitions."""
     seconds = pd.DataFrame({100: [1.0, 1.2, 0.8], 300: [3.0, 3.3, 2.9]})

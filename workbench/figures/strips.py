@@ -13,6 +13,7 @@ from workbench.figures.style import BLACK, BLUE, TEMPLATE, VERMILLION
 _ROW_HEIGHT, _AROUND = 62, 130
 #: How far dots of one row are moved apart, in rows.
 _SPREAD = 0.24
+_RATIO_TICKS = (0.1, 0.2, 0.3, 0.5, 0.7, 1, 1.2, 1.5, 2, 3, 4, 5, 7, 10)
 
 
 def strip_plot(
@@ -23,6 +24,7 @@ def strip_plot(
     medians: Mapping[str, tuple[float, float, float]],
     sides: tuple[str, str] = ("", ""),
     marked: str = "",
+    logarithmic: bool = False,
 ) -> go.Figure:
     """Draw a row of dots for each method, one for each clip, and their median.
 
@@ -40,6 +42,8 @@ def strip_plot(
         What it means to lie left and right of the reference.
     marked : str
         A clip whose dots look different; empty for none.
+    logarithmic : bool
+        Whether equal ratios are equally far apart; all values are then above 0.
 
     Returns
     -------
@@ -91,7 +95,8 @@ def strip_plot(
     for text, anchor, shift in zip(sides, ("right", "left"), (-8, 8), strict=True):
         if text:
             figure.add_annotation(
-                x=reference,
+                # Annotations on a logarithmic axis are placed by the logarithm; lines are not.
+                x=np.log10(reference) if logarithmic else reference,
                 y=len(names) - 0.42,
                 text=text,
                 showarrow=False,
@@ -100,6 +105,8 @@ def strip_plot(
                 font={"size": 11},
             )
     figure.update_xaxes(title_text=x_title)
+    if logarithmic:
+        figure.update_xaxes(type="log", tickvals=_RATIO_TICKS, ticktext=_RATIO_TICKS)
     figure.update_yaxes(
         tickvals=list(places.values()),
         ticktext=list(places),
