@@ -112,13 +112,14 @@ def test_readings_stand_where_they_are():
         {"4σ": [(127, 42.8, "D′")], "2σ": [(210, 46.7, "D′")]},
         published=(131, 42.9),
         default=(127, 42.8),
-        others={"PB": (129, 46.05)},
+        others={"PB": (129, 46.05), "Chord": (129, 39.4), "SCS": (129, 46.2)},
         tolerance=(13, 1.5),
     )
     traces = named(figure)
     assert (traces["2σ"].x[0], traces["2σ"].y[0]) == (210, 46.7)
     assert (traces["published"].x[0], traces["published"].y[0]) == (131, 42.9)
     assert traces["PB"].y[0] == 46.05
+    assert [note.text for note in figure.layout.annotations] == ["PB, SCS", "Chord"]
     box = figure.layout.shapes[0]
     assert (box.x0, box.x1, box.y0, box.y1) == pytest.approx((118, 144, 41.4, 44.4))
 

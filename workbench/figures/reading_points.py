@@ -10,6 +10,8 @@ from workbench.errors import WorkbenchError
 from workbench.figures.style import BLACK, GREY, PALETTE, TEMPLATE
 
 _SYMBOLS = ("circle", "diamond", "square")
+#: Methods nearer to each other than this, in dB, share a label.
+_ONE_PLACE = 0.6
 
 
 def reading_points(
@@ -65,8 +67,7 @@ def reading_points(
                 hovertemplate="%{x} keyframes, %{y:.1f} dB<br>%{text}<extra>" + name + "</extra>",
             )
         )
-    for name, (count, ratio) in (others or {}).items():
-        figure.add_trace(_mark(name, count, ratio, "x-thin", GREY, 9, in_legend=False))
+    for name, (count, ratio) in _labels(others or {}).items():
         figure.add_annotation(
             x=count,
             y=ratio,
@@ -74,12 +75,15 @@ def reading_points(
             showarrow=False,
             xanchor="left",
             xshift=8,
-            font={"size": 11, "color": GREY},
+            font={"size": 12, "color": GREY},
+            bgcolor="rgba(255,255,255,0.85)",
         )
+    for name, place in (others or {}).items():
+        figure.add_trace(_mark(name, *place, "x-thin", GREY, 9, in_legend=False))
     if default is not None:
         figure.add_trace(_mark("default here", *default, "circle-open", BLACK, 17))
     if published is not None:
-        figure.add_trace(_mark("published", *published, "star", BLACK, 13))
+        figure.add_trace(_mark("published", *published, "star-open", BLACK, 15))
         if tolerance is not None:
             (count, ratio), (wide, high) = published, tolerance
             figure.add_shape(
@@ -93,6 +97,19 @@ def reading_points(
     figure.update_xaxes(title_text="number of keyframes")
     figure.update_yaxes(title_text="PSNR in dB")
     return figure
+
+
+def _labels(places: Mapping[str, tuple[float, float]]) -> dict[str, tuple[float, float]]:
+    """Put the names of methods that lie nearly in one place into one label."""
+    labels: list[tuple[list[str], tuple[float, float]]] = []
+    for name, (count, ratio) in places.items():
+        for names, place in labels:
+            if place[0] == count and abs(place[1] - ratio) < _ONE_PLACE:
+                names.append(name)
+                break
+        else:
+            labels.append(([name], (count, ratio)))
+    return {", ".join(names): place for names, place in labels}
 
 
 def _mark(

@@ -177,6 +177,16 @@ def test_stretching_is_the_clip_of_the_thesis():
     assert found == {"Stretching": STRETCHING, "Walking": "cmu/05_01"}
 
 
+def test_a_clip_without_a_skeleton_has_angles_only():
+    """Its rows of body coordinates and of Eq. 4.1 are empty, its counts are there."""
+    table = _compared([STRETCHING], 42.0, 40.0, 46.0).drop(columns="body_error")
+    errors = comparison.comparison_table(table, "body_error")
+    assert errors.loc["frames", ("Stretching", "ours")] == 400
+    assert errors.loc["Euler angles: keyframes", ("Stretching", "ours")] == 32
+    assert errors["Stretching", "ours"].drop(index=["frames"]).notna().sum() == 2
+    assert "Stretching is the clip of the thesis" in comparison.describe_stand_ins(table)
+
+
 def test_differences_are_paired():
     """On each motion at the same count; motions with a missing method are left out."""
     table = _compared([WALK, JUMP, "cmu/05_10"], 42.0, 40.0, 46.0)

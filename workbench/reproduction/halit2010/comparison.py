@@ -160,8 +160,10 @@ def our_rows(table: pd.DataFrame, column: str) -> dict[str, dict[str, float]]:
             lead = f"{label}: " if label else ""
             runs = {method: method_run(clip, method, curves) for method in METHODS}
             saliency = [runs["Saliency"]]
-            [row["frames"]] = values_of(table, saliency, "n_samples")
+            [frames] = values_of(table, saliency, "n_samples")
             [row[f"{lead}keyframes"]] = values_of(table, saliency, "n_control_points")
+            # Without a skeleton there are no runs on positions.
+            row["frames"] = frames if np.isfinite(frames) else row.get("frames", frames)
             for method, value in zip(runs, values_of(table, runs.values(), column), strict=True):
                 row[f"{lead}{method}"] = value
         found[motion] = {name: value for name, value in row.items() if np.isfinite(value)}
