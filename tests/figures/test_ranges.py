@@ -53,3 +53,12 @@ def test_nothing_to_draw_is_refused():
     """There is no chart without a value."""
     with pytest.raises(WorkbenchError, match="groups: got no values"):
         range_chart({"project": {}}, x_title="seconds")
+
+
+def test_the_axis_holds_every_value():
+    """The range, in powers of ten, leaves a margin on both sides; equal values have one too."""
+    low, high = range_chart(TIMES, x_title="seconds").layout.xaxis.range
+    assert 10**low < 1.0
+    assert 10**high > 50.0
+    low, high = range_chart({"project": {"PCA": [2.0]}}, x_title="seconds").layout.xaxis.range
+    assert 10**low < 2.0 < 10**high

@@ -72,17 +72,30 @@ def range_chart(groups: Mapping[str, Mapping[str, Sequence[float]]], *, x_title:
             )
         )
     figure.update_xaxes(
-        title_text=x_title, type="log", dtick=1, exponentformat="power", minor={"showgrid": True}
+        title_text=x_title,
+        type="log",
+        range=_range_of(groups),
+        dtick="D2",
+        exponentformat="power",
     )
     figure.update_yaxes(
         tickvals=list(range(len(categories))),
         ticktext=categories,
         range=[len(categories) - 0.5, -0.5],
         showgrid=False,
+        zeroline=False,
         ticks="",
     )
     height = _AROUND + _ROW_HEIGHT * len(categories)
     return figure.update_layout(height=height, margin={"t": 56, "b": 60})
+
+
+def _range_of(groups: Mapping[str, Mapping[str, Sequence[float]]]) -> list[float]:
+    """Find the range of the axis, in powers of ten, with a margin for the dots."""
+    every = [v for by_category in groups.values() for vs in by_category.values() for v in vs]
+    low, high = np.log10(min(every)), np.log10(max(every))
+    margin = 0.05 * (high - low) or 0.5
+    return [float(low - margin), float(high + margin)]
 
 
 def _summary(category: str, values: Sequence[float]) -> NDArray[np.float64]:
