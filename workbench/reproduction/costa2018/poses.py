@@ -25,7 +25,7 @@ N_POSES = 12
 SEPARATING = SpatialScheme("tsne", selector="rols")
 
 #: Share of the map's extent within which one marker makes another needless.
-_NEAR = 0.12
+_NEAR = 0.22
 
 #: Share of the curve's length over which a drag is felt.
 _RADIUS = 0.2
