@@ -161,6 +161,8 @@ def test_markers_are_searched_on_the_shortest_clips():
     assert marker_clips(clips, "quick") == ["cmu/09_06"]
     assert marker_clips(clips, "full") == clips
     assert shortest(clips, 3) == ["cmu/05_10", "cmu/02_01", "cmu/09_06"]
+    excerpts = ["cmu/01_01-three-jumps", "cmu/01_01-jump", "cmu/01_03-hang"]
+    assert shortest(excerpts, 1) == ["cmu/01_01-jump"]
     assert set(marker_projectors("quick")) < set(marker_projectors("full")) == set(PROJECTORS)
     runs = marker_runs(["cmu/a"], projectors=["PCA"])
     assert [run.scheme.markers for run in runs] == list(MARKER_SEARCHES)

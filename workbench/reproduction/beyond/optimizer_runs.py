@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Sequence
 
 from workbench.datasets.catalogue import lookup
+from workbench.datasets.entries import ExcerptEntry
 from workbench.errors import WorkbenchError
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.schemes import SchemeRun
@@ -143,9 +144,15 @@ def marker_projectors(profile: str) -> list[str]:
 
 def shortest(clips: Sequence[str], count: int) -> list[str]:
     """Take the shortest clips, in their order; a user's own, of unknown length, count as long."""
-    lengths = {clip: getattr(lookup(clip), "frames", None) or math.inf for clip in clips}
-    chosen = sorted(clips, key=lambda clip: lengths[clip])[:count]
+    chosen = sorted(clips, key=_length)[:count]
     return [clip for clip in clips if clip in chosen]
+
+
+def _length(clip: str) -> float:
+    entry = lookup(clip)
+    if isinstance(entry, ExcerptEntry):
+        return entry.stop - entry.start
+    return getattr(entry, "frames", None) or math.inf
 
 
 def _projectors(names: Iterable[str] | None) -> list[str]:
