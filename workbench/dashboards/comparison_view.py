@@ -13,7 +13,8 @@ import numpy as np
 from workbench.dashboards.controls import Controls
 from workbench.dashboards.quality_view import QualityView
 from workbench.dashboards.session import PanelResult, Summary
-from workbench.widgets import PoseView, SampleDetails, ScatterPanels, StatusLine, joint_sides
+from workbench.mocap.sides import joint_sides
+from workbench.widgets import PoseView, SampleDetails, ScatterPanels, StatusLine
 
 _channels = itertools.count(1)
 _ALERT = (

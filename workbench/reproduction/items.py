@@ -129,6 +129,7 @@ NOTEBOOKS = (
                 "Authoring: inspect poses, deform the curve, choose keys",
             ),
         },
+        runs="costa2018.poses",
     ),
     _notebook(
         "costa2018_keyframe_ratio",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from workbench.widgets.details import SampleDetails
 from workbench.widgets.figure import FigureView
-from workbench.widgets.pose import PoseView, joint_sides
+from workbench.widgets.pose import PoseView
 from workbench.widgets.scatter import ScatterPanels
 from workbench.widgets.status import StatusLine
 
@@ -14,5 +14,4 @@ __all__ = [
     "SampleDetails",
     "ScatterPanels",
     "StatusLine",
-    "joint_sides",
 ]
