@@ -158,7 +158,7 @@ def test_ours_stands_beside_the_published_values():
     assert ratios.loc["Saliency", ("Walking", "ours")] == 42.0
     assert ratios.loc["Saliency", ("Walking", "published")] == 64.27
     assert ratios.loc["Saliency", ("Walking", "difference")] == pytest.approx(42.0 - 64.27)
-    assert ratios.loc["frames", ("Walking", "ours")] == 400
+    assert repr(ratios.loc["frames", ("Walking", "ours")]) == "400"
     assert ratios.loc["keyframes, % of frames", ("Walking", "ours")] == pytest.approx(8.0)
     assert ratios.loc["keyframes, % of frames", ("Boxing", "published")] == pytest.approx(
         100 * 311 / 3000

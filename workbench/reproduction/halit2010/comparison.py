@@ -142,10 +142,11 @@ def comparison_table(table: pd.DataFrame, column: str) -> pd.DataFrame:
             row[motion, "published"] = _count(their) if is_count else their
             row[motion, "difference"] = None if mine is None or is_count else mine - their
     scaled = {_scaled_name(name): _scaled(name, row) for name, row in rows.items()}
-    # As objects, so that counts are written as counts.
     content = scaled if column == "body_error" else rows
-    result = pd.DataFrame(content, dtype=object).T
-    result.columns = pd.MultiIndex.from_tuples(list(rows["frames"]))
+    # As objects, so that counts are written as counts.
+    cells = np.array([list(row.values()) for row in content.values()], dtype=object)
+    columns = pd.MultiIndex.from_tuples(list(rows["frames"]))
+    result = pd.DataFrame(cells, index=list(content), columns=columns)
     result.index.name = "quantity"
     return result
 

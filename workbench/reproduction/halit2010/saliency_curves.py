@@ -17,8 +17,8 @@ from workbench.reproduction.halit2010.motions import CALM, PARAMETERS
 from workbench.reproduction.profiles import motion_clips
 from workbench.selection.saliency import Saliency
 
-#: The joint whose curve is shown: the thigh swings to and fro once in each stride.
-JOINT = "RightUpLeg"
+#: The joint whose curve is shown: the knee bends twice in each stride.
+JOINT = "RightLeg"
 
 _BUNDLED_WALK, _WALK = "cmu/01_03-walk", "cmu/05_01"
 
