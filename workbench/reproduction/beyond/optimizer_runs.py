@@ -26,7 +26,7 @@ PROJECTORS = {"PCA": "pca", "MDS": "mds", "Isomap": "isomap", "LLE": "lle", "t-S
 
 #: The quick profile takes the projectors that are fast, and one of them to search for markers,
 #: which takes ten times as long as all optimizers together.
-_QUICK_PROJECTORS = ("PCA", "Isomap", "LLE")
+_QUICK_PROJECTORS = ("PCA", "Isomap")
 _QUICK_MARKER_PROJECTORS = ("PCA",)
 #: On how many clips the optimizers are compared in the quick profile, and markers searched for.
 _QUICK_CLIPS = 6
