@@ -9,7 +9,8 @@ import pytest
 
 from workbench.experiments.grid import run_grid
 from workbench.experiments.runs.before_after import BeforeAfterRun
-from workbench.experiments.runs.compaction import CompactionRun, EqualSizeRun
+from workbench.experiments.runs.compaction import CompactionRun
+from workbench.experiments.runs.equal_size import EqualSizeRun
 from workbench.experiments.runs.schemes import scheme_name
 from workbench.reproduction.beyond import three_dimensions as dims
 from workbench.reproduction.claims import claim_by_id, verdict

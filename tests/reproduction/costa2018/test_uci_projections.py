@@ -12,7 +12,6 @@ from workbench.experiments.store import ResultStore
 from workbench.projection import scale_to_unit_square
 from workbench.reproduction.costa2018.uci_projections import (
     TABLE_5_3,
-    UCI_TABLES,
     planned_runs,
     uci_alt,
     uci_caption,
@@ -21,6 +20,7 @@ from workbench.reproduction.costa2018.uci_projections import (
     uci_ratios,
     uci_runs,
 )
+from workbench.reproduction.costa2018.uci_tables import UCI_TABLES
 
 WINE = next(table for table in UCI_TABLES if table.dataset == "uci/wine")
 YEAST = next(table for table in UCI_TABLES if table.dataset == "uci/yeast")

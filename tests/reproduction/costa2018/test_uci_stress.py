@@ -10,7 +10,8 @@ from workbench.experiments.runs.schemes import scheme_name
 from workbench.reproduction.claims import claim_by_id, verdict
 from workbench.reproduction.costa2018 import uci_stress
 from workbench.reproduction.costa2018.results import PROJECTORS
-from workbench.reproduction.costa2018.uci_projections import UCI_TABLES, scheme_of
+from workbench.reproduction.costa2018.uci_projections import scheme_of
+from workbench.reproduction.costa2018.uci_tables import UCI_TABLES
 from workbench.reproduction.published import published
 
 SEEDS = (0, 1, 2)

@@ -11,7 +11,8 @@ import pandas as pd
 
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.before_after import BeforeAfterRun
-from workbench.experiments.runs.compaction import CompactionRun, EqualSizeRun
+from workbench.experiments.runs.compaction import CompactionRun
+from workbench.experiments.runs.equal_size import EqualSizeRun
 from workbench.experiments.runs.schemes import scheme_name
 from workbench.experiments.statistics import boxplot_statistics
 from workbench.figures.boxplots import Box

@@ -9,7 +9,8 @@ import pandas as pd
 
 from workbench.experiments.bootstrap import Estimate
 from workbench.experiments.runs.base import Run
-from workbench.experiments.runs.compaction import CompactionRun, EqualSizeRun, MotionFormsRun
+from workbench.experiments.runs.compaction import CompactionRun, MotionFormsRun
+from workbench.experiments.runs.equal_size import EqualSizeRun
 from workbench.experiments.runs.schemes import Scheme, scheme_name
 from workbench.figures.tradeoffs import Curve
 from workbench.reproduction.claims import Evidence

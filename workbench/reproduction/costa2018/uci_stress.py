@@ -16,11 +16,10 @@ from workbench.reproduction.costa2018.results import PROJECTORS
 from workbench.reproduction.costa2018.uci_projections import (
     TABLE_5_3,
     TWO_STEPS,
-    UCI_TABLES,
-    UciTable,
     data_name,
     finished,
 )
+from workbench.reproduction.costa2018.uci_tables import UCI_TABLES, UciTable
 from workbench.reproduction.published import published
 
 EQ_4_1 = "stress_ratio"
