@@ -18,7 +18,7 @@ _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "triangle-down", "cros
 _BAND = "#EEF1F4"
 
 #: Pixels of a panel, and above and below all of them.
-_PANEL_HEIGHT, _AROUND = 230, 130
+_PANEL_HEIGHT, _AROUND = 240, 140
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class LinePanel:
     Attributes
     ----------
     title : str
-        Shown above.
+        Shown above; ``<br>`` breaks a line, which keeps panels readable on a phone.
     lines : mapping of str to mapping of float to float
         For each line its values: y by x.
     """
@@ -81,7 +81,7 @@ def line_panels(
         cols=columns,
         subplot_titles=[panel.title for panel in panels],
         horizontal_spacing=0.14 / columns,
-        vertical_spacing=60 / (height - _AROUND) if n_rows > 1 else 0.0,
+        vertical_spacing=84 / (height - _AROUND) if n_rows > 1 else 0.0,
     )
     shown: set[str] = set()
     for index, panel in enumerate(panels):
@@ -115,7 +115,7 @@ def line_panels(
     for column in range(1, columns + 1):
         lowest = (len(panels) - column) // columns + 1
         figure.update_xaxes(title_text=x_title, row=lowest, col=column)
-    legend = {"y": 1 + 34 / (height - _AROUND), "itemwidth": 40}
+    legend = {"y": 1 + 40 / (height - _AROUND), "itemwidth": 40}
     return figure.update_layout(
-        template=TEMPLATE, height=height, legend=legend, margin={"t": 78, "b": 52}
+        template=TEMPLATE, height=height, legend=legend, margin={"t": 88, "b": 52}
     )

@@ -149,7 +149,7 @@ def charts(table: pd.DataFrame, clips: dict[ActionPanel, str]) -> list[LinePanel
         errors = errors_by_ratio(table, clip)
         lines = {str(name): dict(column.dropna()) for name, column in errors.items()}
         if any(lines.values()):
-            title = f"({panel.letter}) {panel.action}: {clip.removeprefix('cmu/')}"
+            title = f"({panel.letter}) {panel.action}<br>{clip.removeprefix('cmu/')}"
             made.append(LinePanel(title, lines))
     if not made:
         raise WorkbenchError(f"all runs failed; the first: {table['message'].iloc[0]}")
