@@ -9,7 +9,7 @@ from __future__ import annotations
 import queue
 import threading
 import warnings
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -26,6 +26,10 @@ _PATIENCE = 10
 #: Seconds after which to look for new workers while none of the runs is finished.
 _LOOK_AROUND = 2
 
+#: Seconds for a result to arrive from a worker that has nothing else to do.
+_GATHERING = 60
+#: A run that has ended so many workers is not given to another.
+_ALLOWED_ENDS = 3
 #: Runs are parted for as many workers at least, since more may come than are there at first.
 _WORKERS_TO_COME = 8
 
@@ -83,8 +87,8 @@ class Cluster:
     def execute(self, tasks: Sequence[Task], store: ResultStore) -> Iterator[Outcome]:
         """Execute tasks on the workers and store each run here as soon as it is finished.
 
-        A run whose worker is lost is executed again on another one, a few times; then it
-        fails, and the others go on. Workers that come later take part.
+        A run whose worker is lost is executed again on another one; if that is lost too, and
+        the next, it fails, and the others go on. Workers that come later take part.
 
         Parameters
         ----------
@@ -130,6 +134,7 @@ class _Dispatch:
         self._waiting = deque(deque(task) for task in tasks)
         self._begun: dict[str, deque[PlannedRun]] = {}
         self._running: dict[Future, tuple[PlannedRun, str]] = {}
+        self._ends: Counter[str] = Counter()
         self._ended: queue.SimpleQueue[Future] = queue.SimpleQueue()
         self._alone = False
 
@@ -143,11 +148,17 @@ class _Dispatch:
                 future = self._ended.get(timeout=_LOOK_AROUND)
             except queue.Empty:
                 continue
+            if future not in self._running:
+                continue  # its worker was lost, and the run is handed out again
             planned, _ = self._running.pop(future)
-            outcome = _outcome(future, planned)
-            # Or the scheduler would have a result again that is lost with its worker.
+            try:
+                outcome = _outcome(future, planned)
+            except TimeoutError:
+                yield from self._again(planned)
+            else:
+                yield outcome
+            # Or the scheduler would compute it once more when that worker is lost later.
             future.release()
-            yield outcome
 
     def cancel(self) -> None:
         """Forget what was handed out and is not finished."""
@@ -159,11 +170,16 @@ class _Dispatch:
         """Give each idle worker its next run; pass on what is found finished meanwhile."""
         workers = list(self._client.nthreads())
         self._notice_absence(workers)
-        busy = {worker for _, worker in self._running.values()}
         for lost in self._begun.keys() - workers:
             rest = self._begun.pop(lost)
             if rest:
                 self._waiting.appendleft(rest)
+        for future, (planned, worker) in list(self._running.items()):
+            if worker not in workers:
+                del self._running[future]
+                future.release()
+                yield from self._again(planned)
+        busy = {worker for _, worker in self._running.values()}
         for worker in workers:
             while worker not in busy and (task := self._task_of(worker)):
                 planned = task.popleft()
@@ -172,6 +188,16 @@ class _Dispatch:
                     self._submit(planned, worker)
                     break
                 yield outcome
+
+    def _again(self, planned: PlannedRun) -> Iterator[Outcome]:
+        """Let a run whose worker was lost be the next to be handed out, or give it up."""
+        self._ends[planned.key] += 1
+        ends = self._ends[planned.key]
+        if ends < _ALLOWED_ENDS:
+            self._waiting.appendleft(deque([planned]))
+        else:
+            message = f"the workers that ran it ended, {ends} times (out of memory?)"
+            yield Outcome(planned, None, message=message)
 
     def _task_of(self, worker: str) -> deque[PlannedRun] | None:
         """Give the task that a worker is at, or the next one, if there is any."""
@@ -183,13 +209,7 @@ class _Dispatch:
         return self._begun[worker]
 
     def _submit(self, planned: PlannedRun, worker: str) -> None:
-        future = self._client.submit(
-            execute_on_worker,
-            planned,
-            workers=[worker],
-            allow_other_workers=True,  # if that one is lost
-            pure=False,
-        )
+        future = self._client.submit(execute_on_worker, planned, workers=[worker], pure=False)
         self._running[future] = (planned, worker)
         future.add_done_callback(self._ended.put)
 
@@ -220,13 +240,13 @@ def _outcome(future: Future, planned: PlannedRun) -> Outcome:
     from distributed import KilledWorker
 
     try:
-        outcome: Outcome = future.result()
-    except KilledWorker as error:
-        ended = error.allowed_failures + 1
-        return Outcome(
-            planned, None, message=f"the workers that ran it ended, {ended} times (out of memory?)"
-        )
+        outcome: Outcome = future.result(timeout=_GATHERING)
+    except KilledWorker:  # one that was started again and again under the same address
+        message = "the worker that ran it ended, several times (out of memory?)"
+        return Outcome(planned, None, message=message)
     except _lost_connection():
+        raise
+    except TimeoutError:  # the worker was lost with the result
         raise
     except Exception as error:  # the worker has no such module, say
         return Outcome(planned, None, message=f"on a worker: {type(error).__name__}: {error}")
