@@ -78,12 +78,12 @@ def test_key_is_the_same_in_every_process(monkeypatch):
         ("kernels.py", True),
         ("projection/pca.py", True),
         ("optimization/objective.py", True),
-        ("experiments/runs/shared.py", True),
+        ("experiments/runs/new.py", True),
         ("experiments/grid.py", False),
         ("reproduction/report.py", False),
         ("figures/style.py", False),
         ("cli/new.py", False),
-        ("compact/file.py", False),
+        ("compact/new.py", True),
     ],
 )
 def test_digest_notices_code_that_computes(tmp_path: Path, module: str, decides: bool):

@@ -10,14 +10,17 @@ from workbench.mocap.sides import joint_sides
 @pytest.mark.parametrize(
     ("names", "sides"),
     [
-        (["Hips", "LeftUpLeg", "RightUpLeg", "LowerBack"], ["middle", "left", "right", "middle"]),
-        (["root", "lfemur", "rfemur", "lowerback"], ["middle", "left", "right", "middle"]),
-        (["pelvis", "hand_l", "hand_r"], ["middle", "left", "right"]),
-        (["Bip01", "Bip01 L Foot", "Bip01 R Foot"], ["middle", "left", "right"]),
-        (["l1", "r2"], ["middle", "middle"]),
+        (["Hips", "LeftUpLeg", "RightUpLeg", "LowerBack"], "mlrm"),
+        (["LHipJoint", "RHipJoint", "LThumb", "RThumb"], "lrlr"),
+        (["root", "lfemur", "rfemur", "lowerback", "lclavicle", "rclavicle"], "mlrmlr"),
+        (["hand_l", "hand_r", "Bip01 L Foot", "Bip01 R Foot", "pelvis"], "lrlrm"),
+        (["mixamorig:LeftArm", "mixamorig:RightArm"], "lr"),
+        (["leg", "reg"], "lr"),
+        (["LeftArm", "Spine"], "mm"),
     ],
-    ids=["BVH", "ASF", "suffix", "between marks", "no pair"],
+    ids=["words", "capitals", "asf", "suffixes", "prefixes", "letters", "no partner"],
 )
-def test_sides_follow_from_pairs_of_names(names, sides):
-    """Only a joint whose mirrored name exists is on a side."""
-    assert joint_sides(names) == sides
+def test_sides_come_from_pairs_of_names(names: list[str], sides: str) -> None:
+    """A joint has a side only if its mirrored name is another joint's."""
+    words = {"l": "left", "r": "right", "m": "middle"}
+    assert joint_sides(names) == [words[letter] for letter in sides]

@@ -16,8 +16,8 @@ _PACKAGES = ("numpy", "scipy", "scikit-learn", "umap-learn", "numba")
 #: reads data, whose content has a checksum of its own.
 _NOT_NUMERICAL = (
     "__main__.py",
+    "authoring",
     "cli",
-    "compact",
     "dashboards",
     "datasets",
     "errors.py",
@@ -25,11 +25,11 @@ _NOT_NUMERICAL = (
     "figures",
     "reproduction",
     "resources.py",
+    "study",
     "widgets",
 )
-#: The module of experiments that decides results of every kind of run. That of one kind alone
-#: is counted with its runs.
-_SHARED_STEPS = "experiments/runs/shared.py"
+#: The part of experiments that does decide results.
+_RUNS = "experiments/runs/"
 
 
 @cache
@@ -64,7 +64,7 @@ def digest_of_code(package: Path) -> str:
     digest = hashlib.sha256()
     for path in sorted(package.rglob("*.py")):
         name = path.relative_to(package).as_posix()
-        if name.split("/")[0] not in _NOT_NUMERICAL or name == _SHARED_STEPS:
+        if name.split("/")[0] not in _NOT_NUMERICAL or name.startswith(_RUNS):
             digest.update(name.encode() + b"\0")
             digest.update(hashlib.sha256(path.read_bytes()).digest())
     return digest.hexdigest()

@@ -75,9 +75,15 @@ def content_key(run: Run, checksum: str) -> str:
 
 
 def _digest_of_kind(module: str) -> str:
-    """Compute a digest of the module of a kind of run; empty for one typed into a notebook."""
+    """Compute a digest of the module of a kind of run that is not of this package.
+
+    Those of this package are among the code that counts for every run; a kind that was typed
+    into a notebook has no module.
+    """
     source = getattr(sys.modules[module], "__file__", None)
-    return hashlib.sha256(Path(source).read_bytes()).hexdigest() if source else ""
+    if module.startswith("workbench.") or not source:
+        return ""
+    return hashlib.sha256(Path(source).read_bytes()).hexdigest()
 
 
 def space_checksum(space: Space) -> str:
