@@ -10,13 +10,14 @@ import time
 import warnings
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
 
 from tests.experiments import slow_grid
-from tests.experiments.logged_runs import LoggedRun
+from tests.experiments.logged_runs import LoggedRun, log_lines
 from workbench.datasets import load_space
 from workbench.errors import WorkbenchError
 from workbench.experiments.grid import Advance, describe_failures, run_grid
@@ -350,3 +351,104 @@ def test_two_processes_share_a_folder(tmp_path: Path):
     assert len(first.lines()) == 6
     stored = [json.loads(path.read_text()) for path in first.results.glob("*.json")]
     assert {record["key"] for record in stored} == set(table["key"])
+
+
+def _in_fresh_process(code: str, *arguments: object, **options: Any) -> subprocess.Popen:
+    """Start Python with the tests' helpers at hand."""
+    return subprocess.Popen(
+        [sys.executable, "-c", code, *map(str, arguments)],
+        cwd=Path(__file__).parents[2],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        **options,
+    )
+
+
+SMALL_GRID = """
+import sys
+from workbench.experiments.grid import run_grid
+from workbench.experiments.runs.schemes import SchemeRun
+from workbench.schemes import SpatialScheme, TemporalScheme
+
+if __name__ == "__main__":
+    schemes = [SpatialScheme(p, optimizer=o) for p in ("pca", "tsne") for o in (None, "alg12")]
+    runs = [SchemeRun("uci/wine", s, ratio=0.1) for s in schemes]
+    others = (TemporalScheme("slerp"), schemes[1])
+    runs += [SchemeRun("cmu/01_01-jump", s, ratio=0.03) for s in others]
+    table = run_grid(runs, sys.argv[1], n_jobs=int(sys.argv[2]))
+    table = table[[name for name in table.columns if not name.startswith("seconds")]]
+    print(table.to_json(orient="records", double_precision=15))
+    print([value.hex() for value in table["error"]])
+"""
+
+
+def test_tables_are_the_same_to_the_last_bit_in_any_process(tmp_path: Path):
+    """Fresh processes, one worker or two, and two grids in one folder at once: one table."""
+    places = [("a", 1), ("b", 1), ("c", 2), ("together", 1), ("together", 2)]
+    started = [_in_fresh_process(SMALL_GRID, tmp_path / name, jobs) for name, jobs in places]
+    printed = [process.communicate(timeout=280)[0] for process in started]
+    assert all(process.returncode == 0 for process in started)
+    assert "done" in printed[0]
+    assert printed == [printed[0]] * len(places)
+    arrays = [
+        {file.name: file.read_bytes() for file in (tmp_path / name).glob("*.npz")}
+        for name in ("a", "b", "c", "together")
+    ]
+    assert len(arrays[0]) == 6
+    assert arrays == [arrays[0]] * 4
+
+
+FULL_DISK = """
+import resource, sys
+from workbench.errors import WorkbenchError
+from workbench.experiments.grid import run_grid
+from tests.experiments.logged_runs import LoggedRun, log_lines
+
+if __name__ == "__main__":
+    runs = [LoggedRun("uci/iris", 0, sys.argv[1]), LoggedRun("uci/yeast", 0, sys.argv[1])]
+    resource.setrlimit(resource.RLIMIT_FSIZE, (8000, 8000))
+    try:
+        run_grid(runs, sys.argv[1] + "/results")
+    except WorkbenchError as error:
+        print(error)
+"""
+
+
+def test_a_full_disk_costs_what_was_not_stored(tmp_path: Path):
+    """Where a file ends for want of space no result is taken for whole; with space it goes on."""
+    process = _in_fresh_process(FULL_DISK, tmp_path)
+    said, _ = process.communicate(timeout=280)
+    assert process.returncode == 0
+    assert "a result could not be stored (File too large)" in said
+    assert "run the grid again" in said
+    results = tmp_path / "results"
+    assert [path.suffix for path in results.iterdir() if path.suffix != ".json"] in ([], [".npz"])
+    runs = [LoggedRun(name, 0, str(tmp_path)) for name in ("uci/iris", "uci/yeast")]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert run_grid(runs, results)["status"].tolist() == ["done"] * 2
+    # Yeast, the larger one, was begun first and is the one that was too large.
+    assert len(log_lines(tmp_path)) == 3
+
+
+def test_a_folder_that_takes_nothing_is_refused_at_once(tmp_path: Path):
+    """Nothing is computed that could not be stored."""
+    (tmp_path / "file").write_text("")
+    runs = [LoggedRun("uci/iris", 0, str(tmp_path))]
+    with pytest.raises(WorkbenchError, match="cannot be made"):
+        run_grid(runs, tmp_path / "file" / "results")
+    assert log_lines(tmp_path) == []
+
+
+def test_the_share_of_the_work_follows_the_seconds(tmp_path: Path):
+    """Of a slow run and many fast ones, the slow one is most of the work; found ones are none."""
+    fast = [SchemeRun("cmu/01_01-jump", TemporalScheme("slerp"), count=n) for n in range(3, 13)]
+    slow = SchemeRun("cmu/01_01-jump", SpatialScheme("tsne", optimizer="alg12"), ratio=0.1)
+    run_grid(fast[:5], tmp_path)
+    seen: list[Advance] = []
+    run_grid([*fast, slow], tmp_path, progress=seen.append)
+    assert (seen[0].finished, seen[0].share) == (5, 0.0)
+    assert seen[-2].finished == 10
+    assert seen[-2].share < 0.3
+    assert seen[-1].share == 1.0

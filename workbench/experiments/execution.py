@@ -130,8 +130,15 @@ def _require_same(planned: PlannedRun, checksum: str) -> None:
         for name, version in planned.versions.items()
         if here.get(name) != version
     ]
-    found = ", ".join(different) or "other code of workbench, under the same version number"
-    raise WorkbenchError(f"the run was executed with {found}; install what it was planned with")
+    if different:
+        raise WorkbenchError(
+            f"the process that was to execute the run has {', '.join(different)}; install there "
+            "what it was planned with"
+        )
+    raise WorkbenchError(
+        "the process that was to execute the run has other code of workbench, under the same "
+        "version number (was a file changed meanwhile?)"
+    )
 
 
 def keep(store: ResultStore, outcome: Outcome) -> Outcome:

@@ -171,7 +171,7 @@ class ResultStore:
             checksum = record.pop("sha256")
             if checksum == _sha256(_canonical(record)) and record["key"] == path.stem:
                 return dict(record)
-        except FileNotFoundError:
+        except (FileNotFoundError, NotADirectoryError):
             return None
         except (OSError, ValueError, KeyError, AttributeError, TypeError):
             pass
