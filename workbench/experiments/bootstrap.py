@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike, NDArray
 from workbench.errors import WorkbenchError
 from workbench.validation import finite
 
-#: How often the data are drawn anew: enough that the ends of an interval stand still in the
+#: How often the data are drawn anew: enough that the ends of an interval stand still to a few
 #: second digit.
-N_RESAMPLES = 4000
+N_RESAMPLES = 2000
 
 
 @dataclass(frozen=True)
