@@ -14,7 +14,7 @@ Data = tuple[str, bool]
 
 #: A task takes no longer than this share of what each process has to do in all, unless it
 #: cannot be parted: the last one to end then keeps the others waiting for no longer.
-_LARGEST_SHARE = 1 / 8
+_LARGEST_SHARE = 1 / 4
 
 
 def plan_tasks(
