@@ -12,7 +12,7 @@ from workbench.errors import WorkbenchError
 from workbench.validation import finite
 
 #: How often the data are drawn anew: enough that the ends of an interval stand still to a few
-#: second digit.
+#: per cent of its width.
 N_RESAMPLES = 2000
 
 
