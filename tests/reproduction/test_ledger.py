@@ -47,10 +47,13 @@ def test_the_ledger_judges_and_says_what_it_rests_on(tmp_path: Path):
 
 def test_few_clips_decide_nothing_and_the_note_says_so(tmp_path: Path):
     """With five clips the verdict is open, however narrow the interval."""
+    Outputs(tmp_path).claim(CLAIM, Evidence(Estimate(0.86, 0.86, 0.86, 1), "clips", "Short."))
+    (row,) = (r for r in write_ledger(tmp_path, [NOTEBOOK]) if r["claim"].id == CLAIM)
+    assert row["data"] == "1 clip"
     Outputs(tmp_path).claim(CLAIM, Evidence(Estimate(0.86, 0.85, 0.87, 5), "clips", "Short."))
     (row,) = (r for r in write_ledger(tmp_path, [NOTEBOOK]) if r["claim"].id == CLAIM)
     assert row["verdict"] == "not decidable"
-    assert row["note"] == "Short. 5 clips are too few to decide, want 6 or more."
+    assert row["note"] == "Short. Too few clips to decide: 5, want 6 or more."
 
 
 def test_the_ledger_is_a_table_too(tmp_path: Path):

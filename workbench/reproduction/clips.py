@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from workbench.errors import WorkbenchError
-from workbench.reproduction.profiles import motion_clips
+from workbench.reproduction.profiles import excerpts, motion_clips
 
 #: A clip of every checkout that moves much and comes back to where it was.
 BUNDLED = "cmu/01_01-two-jumps"
@@ -82,7 +82,7 @@ def _titles(profile: str) -> dict[str, str]:
     """Give all clips that a profile may show: bundled excerpts, or all there are."""
     from workbench.datasets import list_datasets
 
-    excerpts = set(motion_clips("quick"))
+    bundled = set(excerpts())
     present = {
         status.entry.name: status.entry.title
         for status in list_datasets()
@@ -91,4 +91,4 @@ def _titles(profile: str) -> dict[str, str]:
     if profile == "full":
         return present
     motion_clips(profile)  # refuses an unknown profile
-    return {name: title for name, title in present.items() if name in excerpts}
+    return {name: title for name, title in present.items() if name in bundled}

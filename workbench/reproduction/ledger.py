@@ -65,7 +65,7 @@ def _row(claim: Claim, evidence: Evidence | None) -> dict[str, Any]:
     estimate = found.estimate
     note = found.note
     if estimate is not None and 0 < estimate.n_units < MIN_UNITS:
-        few = f"{estimate.n_units} {found.units} are too few to decide, want {MIN_UNITS} or more."
+        few = f"Too few {found.units} to decide: {estimate.n_units}, want {MIN_UNITS} or more."
         note = f"{note} {few}".strip()
     return {
         "claim": claim,
@@ -90,7 +90,8 @@ def _data(evidence: Evidence) -> str:
     if estimate.n_units == 0:
         return "by formula"
     seeds = f", {estimate.n_seeds} seeds" if estimate.n_seeds > 1 else ""
-    return f"{estimate.n_units} {evidence.units}{seeds}"
+    units = evidence.units.removesuffix("s") if estimate.n_units == 1 else evidence.units
+    return f"{estimate.n_units} {units}{seeds}"
 
 
 def _number(value: float) -> str:

@@ -10,6 +10,16 @@ from workbench.errors import DataError, WorkbenchError
 if TYPE_CHECKING:
     from workbench.datasets import Status
 
+#: Excerpts on which the quick profile compares schemes: the cheapest of each kind of action.
+_QUICK_CLIPS = (
+    "cmu/01_01-jump",
+    "cmu/01_01-two-jumps",
+    "cmu/01_01-turn",
+    "cmu/01_03-walk",
+    "cmu/01_03-climb-up",
+    "cmu/01_03-lean-over",
+)
+
 #: Lengths of the 70 clips of Costa 2018, in frames.
 SHORTEST, LONGEST = 129, 1146
 
@@ -20,7 +30,7 @@ def motion_clips(profile: str) -> list[str]:
     Parameters
     ----------
     profile : {"quick", "full"}
-        ``quick``: the short excerpts of the bundled clips. ``full``: all clips found whose
+        ``quick``: some of the :func:`excerpts`. ``full``: all clips found whose
         length is in the range of those of the thesis.
 
     Returns
@@ -33,14 +43,15 @@ def motion_clips(profile: str) -> list[str]:
     WorkbenchError
         If the profile is unknown, or there is no such clip.
     """
-    present = [status for status in _present() if status.entry.name.startswith("cmu/")]
     if _is_quick(profile):
-        names = [status.entry.name for status in present if status.entry.kind == "excerpt"]
+        names = [name for name in excerpts() if name in _QUICK_CLIPS]
     else:
         names = [
             status.entry.name
-            for status in present
-            if status.entry.kind == "motion" and SHORTEST <= _n_frames(status) <= LONGEST
+            for status in _present()
+            if status.entry.name.startswith("cmu/")
+            and status.entry.kind == "motion"
+            and SHORTEST <= _n_frames(status) <= LONGEST
         ]
     if not names:
         raise WorkbenchError(
@@ -48,6 +59,11 @@ def motion_clips(profile: str) -> list[str]:
             "with mocap/bvh/ in WORKBENCH_DATA, or take the quick profile"
         )
     return names
+
+
+def excerpts() -> list[str]:
+    """List the short excerpts of the bundled clips, which are on every machine."""
+    return [status.entry.name for status in _present() if status.entry.kind == "excerpt"]
 
 
 def absent_tables(datasets: Iterable[str]) -> dict[str, str]:

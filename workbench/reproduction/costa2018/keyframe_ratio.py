@@ -14,7 +14,7 @@ from workbench.experiments.runs.schemes import Scheme, SchemeRun
 from workbench.figures.lines import LinePanel
 from workbench.reproduction.claims import Evidence
 from workbench.reproduction.costa2018.results import evidence_of, values_by_clip
-from workbench.reproduction.profiles import motion_clips
+from workbench.reproduction.profiles import excerpts, motion_clips
 from workbench.schemes import SpatialScheme, TemporalScheme
 
 #: The five interpolators of the caption; the text names the first four alone. Spatial schemes
@@ -91,7 +91,7 @@ def clips_by_panel(profile: str) -> dict[ActionPanel, str]:
         Charts without a clip are left out.
     """
     panels = _QUICK_PANELS if profile == "quick" else PANELS
-    present = {*motion_clips("quick"), *motion_clips(profile)}
+    present = {*excerpts(), *motion_clips(profile)}
     chosen = {}
     for panel in panels:
         found = [clip for clip in (*panel.published, *panel.stand_ins) if clip in present]

@@ -19,7 +19,7 @@ from workbench.figures.trajectories import trajectory_panels
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
 from workbench.reproduction.costa2018.results import PROJECTORS
 from workbench.reproduction.outputs import Outputs
-from workbench.reproduction.profiles import motion_clips
+from workbench.reproduction.profiles import excerpts, motion_clips
 from workbench.reproduction.published import published
 from workbench.schemes import SpatialScheme
 
@@ -61,7 +61,7 @@ class MotionFigure:
 
     def clip(self, profile: str) -> str | None:
         """Choose the clip among those of a profile and the excerpts; None if there is none."""
-        present = {*motion_clips("quick"), *motion_clips(profile)}
+        present = {*excerpts(), *motion_clips(profile)}
         candidates = (self.published_clip, *self.stand_ins)
         return next((clip for clip in candidates if clip in present), None)
 

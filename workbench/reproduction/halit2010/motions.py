@@ -9,7 +9,7 @@ import pandas as pd
 
 from workbench.experiments.grid import describe_failures
 from workbench.experiments.runs.keyframes import KeyframeRun, Parameters
-from workbench.reproduction.profiles import motion_clips
+from workbench.reproduction.profiles import excerpts, motion_clips
 
 #: "Stretching", the only clip of the thesis that is at hand, and what else is there of its
 #: kind. Their skeleton is not, so they are tables of joint angles.
@@ -42,7 +42,8 @@ def motions(profile: str) -> list[str]:
 
     clips = motion_clips(profile)
     if profile == "quick":
-        return clips
+        # Selectors take little time, so that there is no need to choose some of them.
+        return excerpts()
     found = {status.entry.name for status in list_datasets() if status.state == "available"}
     return [*clips, *(name for name in _WITHOUT_SKELETON if name in found)]
 
