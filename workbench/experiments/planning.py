@@ -13,8 +13,9 @@ Task = list[PlannedRun]
 Data = tuple[str, bool]
 
 #: A task takes no longer than this share of what each process has to do in all, unless it
-#: cannot be parted: the last one to end then keeps the others waiting for no longer.
-_LARGEST_SHARE = 1 / 4
+#: cannot be parted: the last one to end then keeps the others waiting for no longer, and the
+#: progress, which is told by task, moves as often.
+_LARGEST_SHARE = 1 / 16
 
 
 def plan_tasks(
