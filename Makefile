@@ -6,7 +6,7 @@ BIN := $(VENV)/bin
 REPORT := reproduction
 
 .DEFAULT_GOAL := help
-.PHONY: help setup reproduce test bench check wheel lab format screenshots clean
+.PHONY: help setup reproduce verify test bench check wheel lab format screenshots clean
 
 help: ## Say what the targets do
 	@sed -n 's/^\([a-z]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 20
@@ -21,6 +21,9 @@ $(VENV)/installed: pyproject.toml constraints.txt
 
 reproduce: $(VENV)/installed ## Regenerate the figures and tables on bundled data
 	$(BIN)/workbench reproduce --profile quick --out $(REPORT)
+
+verify: reproduce ## Check the report as a whole
+	$(BIN)/python -m tests.check_report $(REPORT)
 
 test: $(VENV)/installed ## Run all tests
 	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile

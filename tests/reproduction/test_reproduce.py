@@ -267,7 +267,7 @@ def test_a_run_that_two_notebooks_read_is_executed_once(tmp_path: Path, monkeypa
         progress=messages.append,
     )
     assert not report.failed
-    assert "1 runs for 2 notebooks" in messages
+    assert "runs that the notebooks read: 1" in messages
     parts = [part["values"] for part in read_parts(tmp_path / "out")]
     # One process each suffices to read what is there.
     assert parts == [{"error": parts[0]["error"], "jobs": 1}] * 2

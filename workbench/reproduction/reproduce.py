@@ -226,7 +226,7 @@ def _execute_runs(
                 say(f"{notebook.name}: {error}")
     runs = list(dict.fromkeys(run for mine in planned.values() for run in mine))
     if runs:
-        say(f"{len(runs)} runs for {len(planned)} notebooks")
+        say(f"runs that the notebooks read: {len(runs)}")
         on_cluster = {} if scheduler is None else {"scheduler": scheduler}
         run_grid(runs, results, n_jobs=jobs, progress=ProgressLine("  runs"), **on_cluster)
     return set(planned)
