@@ -106,7 +106,7 @@ def run_grid(
     for outcome in _execute(missing, sizes, costs, store, n_jobs, scheduler):
         rows[outcome.planned.run] = _row(outcome)
         report.finished(outcome.planned.run, _seconds(outcome), _summary(outcome))
-    if planned:
+    if missing or (planned and not store.has_table()):
         _write_table(store)
     table = pd.DataFrame([rows[run] for run in wanted])
     # Where nothing was run or all failed, a reader still finds the columns that it asks for.

@@ -135,6 +135,10 @@ class ResultStore:
             if record is not None:
                 yield dict(record["row"])
 
+    def has_table(self) -> bool:
+        """Tell whether the rows have been gathered in ``runs.parquet``."""
+        return (self.folder / "runs.parquet").is_file()
+
     def write_table(self) -> pd.DataFrame:
         """Gather all rows into ``runs.parquet``.
 

@@ -36,6 +36,9 @@ if TYPE_CHECKING:
 
 PROFILES = ("quick", "full")
 
+#: So many figures take longer to render than a second browser takes to start.
+_WORTH_A_BROWSER = 12
+
 
 @dataclass(frozen=True)
 class ReproductionReport:
@@ -181,7 +184,7 @@ def reproduce_items(
             "study": None if study is None else str(Path(study).expanduser().resolve()),
         }
     errors = _run_notebooks(notebooks, folder, tasks, wanted, jobs=jobs, say=progress)
-    notices = _write_images(folder, progress)
+    notices = _write_images(folder, jobs, progress)
     seconds = time.perf_counter() - start
     run = {"profile": profile, "seed": seed, "seconds": seconds, "notices": notices}
     write_atomically(folder / "run.json", json.dumps(run, indent=1).encode())
@@ -276,7 +279,7 @@ def _check_writable(folder: Path) -> None:
         raise WorkbenchError(f"out: cannot write to {folder} ({error.strerror})") from None
 
 
-def _write_images(folder: Path, progress: Callable[[str], None]) -> list[str]:
+def _write_images(folder: Path, jobs: int, progress: Callable[[str], None]) -> list[str]:
     """Render the figures whose image is missing or older than the figure."""
     stale = []
     for figure in sorted((folder / "figures").glob("*.json")):
@@ -285,10 +288,17 @@ def _write_images(folder: Path, progress: Callable[[str], None]) -> list[str]:
             stale.append(figure)
     if stale:
         progress(f"rendering {len(stale)} images")
-    notice = write_pngs(stale)
-    if not notice:
+    # A browser of its own for each share; large figures, which lie side by side, are dealt out.
+    n_shares = min(effective_n_jobs(jobs), len(stale) // _WORTH_A_BROWSER) or 1
+    shares = [stale[start::n_shares] for start in range(n_shares)]
+    with ThreadPoolExecutor(n_shares) as pool:
+        notices = list(dict.fromkeys(notice for notice in pool.map(write_pngs, shares) if notice))
+    if not notices:
         return []
     for figure in stale:
-        figure.with_suffix(".png").unlink(missing_ok=True)
-    progress(f"  {notice}")
-    return [notice]
+        image = figure.with_suffix(".png")
+        if image.exists() and image.stat().st_mtime < figure.stat().st_mtime:
+            image.unlink()
+    for notice in notices:
+        progress(f"  {notice}")
+    return notices
