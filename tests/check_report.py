@@ -43,7 +43,9 @@ _ACCESSIBILITY = """
     if (text.trim().length < 20) complaints.push(`a figure has hardly a text: "${text}"`);
   }
   for (const link of document.querySelectorAll("a, button, summary")) {
-    if (!link.textContent.trim()) complaints.push(`a link has no text: ${link.outerHTML}`);
+    const text = link.textContent.trim() || link.getAttribute("aria-label");
+    if (!text) complaints.push(`a link has no text: ${link.outerHTML.slice(0, 80)}`);
+    if (/share|cloud/i.test(text)) complaints.push(`a link leads off the machine: ${text}`);
   }
   const ids = [...document.querySelectorAll("[id]")].map((element) => element.id);
   for (const id of new Set(ids.filter((id, at) => ids.indexOf(id) !== at)))

@@ -75,7 +75,8 @@ class Outputs:
         figure.write_html(
             path.with_name(f"{path.name}.html"),
             include_plotlyjs="directory",
-            config={"responsive": True, "displaylogo": False},
+            # plotly.js offers to upload a chart unless it is told not to.
+            config={"responsive": True, "displaylogo": False, "showSendToCloud": False},
         )
         self._part(item, path.name, kind=FIGURE, caption=caption, alt=alt)
 

@@ -2,10 +2,12 @@
 // so the data of a figure are a script, which calls showFigure.
 "use strict";
 const waiting = new Map();
+// plotly.js offers to upload a chart unless it is told not to.
+const config = { responsive: true, displaylogo: false, showSendToCloud: false };
 window.showFigure = (name, figure) => {
   const plot = waiting.get(name);
   waiting.delete(name);
-  if (plot) Plotly.newPlot(plot, figure.data, figure.layout, { responsive: true, displaylogo: false });
+  if (plot) Plotly.newPlot(plot, figure.data, figure.layout, config);
 };
 window.addEventListener("DOMContentLoaded", () => {
   const plots = [...document.querySelectorAll(".plot")];
