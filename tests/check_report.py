@@ -45,7 +45,8 @@ _ACCESSIBILITY = """
   for (const link of document.querySelectorAll("a, button, summary")) {
     const text = link.textContent.trim() || link.getAttribute("aria-label");
     if (!text) complaints.push(`a link has no text: ${link.outerHTML.slice(0, 80)}`);
-    if (/share chart|plotly cloud|upload/i.test(text)) complaints.push(`a link leads off the machine: ${text}`);
+    if (/share chart|plotly cloud|upload/i.test(text))
+      complaints.push(`a link leads off the machine: ${text}`);
   }
   const ids = [...document.querySelectorAll("[id]")].map((element) => element.id);
   for (const id of new Set(ids.filter((id, at) => ids.indexOf(id) !== at)))
