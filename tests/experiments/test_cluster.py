@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 
 import pandas as pd
 import pytest
@@ -200,8 +201,13 @@ def test_the_run_of_a_killed_worker_is_run_again_elsewhere(
     assert {process for number, process in lines if number == 7} == {w.pid for w in workers}
 
 
-def test_a_late_worker_goes_on_for_a_lost_one(own_cluster: LoopbackCluster, tmp_path: Path):
+def test_a_late_worker_goes_on_for_a_lost_one(
+    own_cluster: LoopbackCluster, tmp_path: Path, monkeypatch
+):
     """The results of a worker are stored before it gets its next run, so they survive it."""
+    warned: list[str] = []
+    warner = SimpleNamespace(warn=lambda message, **_: warned.append(message))
+    monkeypatch.setattr(cluster_module, "warnings", warner)
     first = own_cluster.add_worker()
     runs = [
         LoggedRun("uci/iris", 0, str(tmp_path)),
@@ -214,9 +220,10 @@ def test_a_late_worker_goes_on_for_a_lost_one(own_cluster: LoopbackCluster, tmp_
         first.send_signal(signal.SIGKILL)
         first.wait()
         (tmp_path / "go").touch()
+        until(lambda: "no worker is left; waiting for one" in warned, "the warning")
         own_cluster.add_worker()
 
-    with at_the_same_time(replace), pytest.warns(UserWarning, match="no worker is left"):
+    with at_the_same_time(replace):
         table = run_grid(runs, tmp_path / "results", scheduler=own_cluster.address)
     assert table["status"].tolist() == ["done"] * 3
     assert [number for number, _ in log_lines(tmp_path)] == [0, 2, 2, 4]

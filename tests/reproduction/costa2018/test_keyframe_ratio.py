@@ -93,6 +93,7 @@ def test_a_clip_of_the_thesis_comes_before_its_stand_ins(monkeypatch):
     """Where it is missing the nearest takes its place, and the caption says so."""
     present = ["cmu/01_14", "cmu/01_03-swing", "cmu/05_02"]
     monkeypatch.setattr(keyframe_ratio, "motion_clips", lambda profile: present)
+    monkeypatch.setattr(keyframe_ratio, "excerpts", list)
     chosen = keyframe_ratio.clips_by_panel("full")
     assert {panel.letter: clip for panel, clip in chosen.items()} == {
         "a": "cmu/01_14",

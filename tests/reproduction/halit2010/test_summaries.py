@@ -6,14 +6,14 @@ import pytest
 
 from workbench.reproduction.halit2010 import summaries
 from workbench.reproduction.items import select_items
-from workbench.reproduction.profiles import motion_clips
+from workbench.reproduction.profiles import excerpts
 
 
 @pytest.mark.parametrize("figure", [summaries.FLIP, *summaries.SUMMARIES], ids=lambda f: f.id)
 def test_every_figure_can_be_made_of_bundled_clips(figure):
     """The quick profile needs no data, and the caption says what stands in for what."""
     found = summaries.summary(figure, "quick")
-    assert found.clip.name in motion_clips("quick")
+    assert found.clip.name in excerpts()
     assert len(found.keyframes) == figure.count
     assert found.keyframes[0] == 0
     assert found.keyframes[-1] == len(found.motion) - 1
