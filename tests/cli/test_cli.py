@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 
@@ -310,6 +311,18 @@ def test_a_failing_notebook_fails_the_command(run, tmp_path, monkeypatch):
     assert [item["state"] for item in json.loads(out)["items"]] == ["failed"]
     assert err.splitlines()[-1].startswith("workbench: error: failed: costa2018_table_5_1")
     assert "out of luck" in (out_folder / "index.html").read_text()
+
+
+@pytest.mark.parametrize("item", ["costa2018:fig5.2", "costa2018:fig5.3"])
+def test_a_scheduler_that_does_not_answer_fails_the_command(run, tmp_path, item):
+    """Asked for a whole notebook or for one of its items, the runs go to the scheduler."""
+    out = tmp_path / "report"
+    status, _, err = run("reproduce", item, "--scheduler", "tcp://127.0.0.1:9", "--out", out)
+    assert status == 2
+    page = out / "index.html"
+    said = err + (page.read_text(encoding="utf-8") if page.exists() else "")
+    assert re.search("no Dask scheduler answers at .*tcp://127.0.0.1:9", said)
+    assert not list((out / "results").glob("*.json"))
 
 
 def test_heavy_packages_are_not_imported_for_help():

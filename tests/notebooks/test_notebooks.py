@@ -10,7 +10,7 @@ import papermill
 import pytest
 
 from tests.check_notebooks import problems
-from workbench.reproduction.items import EXTRAS, ITEMS
+from workbench.reproduction.items import EXTRAS, ITEMS, NOTEBOOKS
 from workbench.reproduction.notebooks import this_interpreter
 from workbench.reproduction.outputs import read_parts
 from workbench.resources import bundled
@@ -40,6 +40,14 @@ def test_one_cell_holds_the_parameters(name):
     assert len(tagged) == 1
     names = {node.targets[0].id for node in ast.parse(tagged[0].source).body}
     assert {"profile", "seed", "jobs", "out", "results"} <= names
+
+
+@pytest.mark.parametrize("name", [notebook.name for notebook in NOTEBOOKS if notebook.runs])
+def test_runs_of_a_notebook_can_be_executed_elsewhere(name):
+    """A notebook that reads runs takes the address of a scheduler and passes it on."""
+    source = "\n".join(cell.source for cell in nbformat.read(_path(name), as_version=4).cells)
+    assert source.count("scheduler = None") == source.count("run_grid(") == 1
+    assert "scheduler=scheduler" in source
 
 
 @pytest.mark.parametrize("name", NAMES)

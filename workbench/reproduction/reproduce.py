@@ -177,6 +177,7 @@ def reproduce_items(
             "profile": profile,
             "seed": seed,
             "jobs": 1 if name in computed else jobs,
+            "scheduler": None if name in computed else scheduler,
             "out": str(folder),
             "results": str(results),
             "items": None if name in whole else mine,
@@ -230,8 +231,8 @@ def _execute_runs(
     runs = list(dict.fromkeys(run for mine in planned.values() for run in mine))
     if runs:
         say(f"runs that the notebooks read: {len(runs)}")
-        on_cluster = {} if scheduler is None else {"scheduler": scheduler}
-        run_grid(runs, results, n_jobs=jobs, progress=ProgressLine("  runs"), **on_cluster)
+        line = ProgressLine("  runs")
+        run_grid(runs, results, n_jobs=jobs, scheduler=scheduler, progress=line)
     return set(planned)
 
 

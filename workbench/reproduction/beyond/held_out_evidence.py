@@ -32,6 +32,7 @@ _DECISIVE = (STRETCHES, RAW_TABLES, STANDARDIZED_TABLES)
 _CLAIMS = {
     "ours:helps-on-held-out": ("error_alg12_mean", "error_raw_mean"),
     "ours:beats-nearest-neighbour-held-out": ("error_alg12_mean", "error_plane_nearest"),
+    "ours:beats-mean-of-neighbours-held-out": ("error_alg12_mean", "error_plane_mean"),
     "ours:beats-nearest-control-point-held-out": ("error_alg12_mean", "error_plane_control"),
     "ours:beats-own-inverse-held-out": ("error_alg12_mean", "error_inverse"),
 }
