@@ -276,6 +276,18 @@ def test_a_run_that_two_notebooks_read_is_executed_once(tmp_path: Path, monkeypa
     assert stored.stat().st_mtime < first_notebook.stat().st_mtime
 
 
+def test_results_are_read_without_what_computes_them():
+    """A notebook whose runs are there does not wait for scikit-learn, which takes seconds."""
+    code = (
+        "import sys, workbench.experiments.grid\n"
+        "from workbench.reproduction.costa2018 import keyframe_errors\n"
+        "keyframe_errors.planned_runs('quick', 0)\n"
+        "print([name for name in ('sklearn', 'umap') if name in sys.modules])"
+    )
+    done = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True, text=True)
+    assert done.stdout.strip() == "[]"
+
+
 def test_arguments_are_checked_before_anything_runs(tmp_path: Path):
     """A wrong id, profile, number of jobs or folder is one plain error."""
     with pytest.raises(WorkbenchError, match="profile: got 'fast', want one of quick, full"):

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from sklearn.utils import check_random_state
 
 from workbench.errors import WorkbenchError
 from workbench.projection import control_point_projectors, project, scale_to_unit_square
@@ -61,6 +60,9 @@ def project_in_two_steps(
     WorkbenchError
         If an argument is not valid.
     """
+    # Imported here: schemes are described, and results read, without loading scikit-learn.
+    from sklearn.utils import check_random_state
+
     check_space(space)
     indices = control_point_indices(control_points, len(space))
     if not 0.0 <= seed_share <= 1.0:

@@ -51,7 +51,7 @@ _RATIOS = {
     "full": (0.01, 0.02, RATIO, 0.04, 0.06, 0.08, 0.1),
 }
 #: On how many clips, spread over those of the profile.
-_N_CLIPS = {"quick": 3, "full": 10}
+_N_CLIPS = {"quick": 2, "full": 10}
 
 #: Claims about the formulas, and what they say.
 LIMIT_CLAIMS = {

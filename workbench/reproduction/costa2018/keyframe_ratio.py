@@ -31,7 +31,7 @@ SPATIAL: dict[str, Scheme] = {
 SCHEMES: dict[str, Scheme] = {**TEMPORAL, **SPATIAL}
 
 #: Shares of the frames that are keyframes, per cent.
-_RATIOS = {"quick": (1, 2, 3, 4, 6, 8, 10), "full": tuple(range(1, 11))}
+_RATIOS = {"quick": (1, 2, 3, 4, 10), "full": tuple(range(1, 11))}
 
 #: A share that asks for fewer keyframes would silently be another share.
 _MIN_KEYFRAMES = 3
