@@ -117,6 +117,8 @@ def test_panels_show_errors_in_degrees(varied):
     assert panels[1].curves.loc[WALK, 1] == pytest.approx(360 / 10 ** (52 / 20))
     assert panels[3].band == (7.0, 10.0)
     assert "b. calm motions, σ = 10 from 0.9 at 1 to" in parameters.describe_panel(panels[1])
+    assert parameters.describe_examples(panels).startswith("Examples: ")
+    assert parameters.describe_examples([]) == ""
     table = parameters.parameter_table(varied)
     assert table.loc["k = 3", (CALM, "PSNR, dB")] == pytest.approx(56.0)
     assert table.loc["k = 3", (CALM, "keyframes, %")] == pytest.approx(100 * 13 / 400)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 import pandas as pd
@@ -40,7 +40,7 @@ _EXAMPLES = {
 }
 
 #: What is varied, by its name in the library and in figures.
-VARIED = {"n_components": "number of components k", "sigma": "σ in frames"}
+VARIED = {"n_components": "components k", "sigma": "σ in frames"}
 
 
 def planned_runs(
@@ -134,10 +134,9 @@ def chart_panels(table: pd.DataFrame) -> list[ParameterPanel]:
         sigma, n_components = PARAMETERS[kind]
         fixed = f"σ = {sigma:g}" if varied == "n_components" else f"k = {n_components}"
         shown = next((clip for clip in _EXAMPLES[kind] if clip in values.index), "")
-        example = f" (example: {shown.split('/', 1)[-1]})" if shown else ""
         panels.append(
             ParameterPanel(
-                f"{letter}. {kind} motions, {fixed}{example}",
+                f"{letter}. {kind} motions, {fixed}",
                 VARIED[varied],
                 root_mean_square(values),
                 _RECOMMENDED[varied, kind],
@@ -151,7 +150,13 @@ def describe_panel(panel: ParameterPanel) -> str:
     """Say where the median of a panel begins and ends."""
     median = panel.curves.median()
     (first, start), *_, (last, end) = median.items()
-    return f"{panel.title.split(' (')[0]} from {start:.1f} at {first} to {end:.1f} at {last}"
+    return f"{panel.title} from {start:.1f} at {first} to {end:.1f} at {last}"
+
+
+def describe_examples(panels: Sequence[ParameterPanel]) -> str:
+    """Name the motions that have a line of their own: "Examples: 06_02, 05_01."."""
+    shown = dict.fromkeys(panel.shown.split("/", 1)[-1] for panel in panels if panel.shown)
+    return f"Examples: {', '.join(shown)}." if shown else ""
 
 
 def of_kind(values: pd.DataFrame, kind: str) -> pd.DataFrame:
