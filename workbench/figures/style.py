@@ -82,3 +82,17 @@ def class_style(index: int) -> tuple[str, str]:
         PALETTE[index % len(PALETTE)],
         SYMBOLS[index // len(PALETTE) % len(SYMBOLS)],
     )
+
+
+def offer_no_upload() -> None:
+    """Take from figures that notebooks show the button that uploads them.
+
+    plotly.js has it unless it is told not to; what is shown here stays on this machine.
+    """
+    # Imported here: it takes seconds, by way of nbformat, and only who shows a figure needs it.
+    import plotly.io
+
+    for name in plotly.io.renderers:
+        config = getattr(plotly.io.renderers[name], "config", None)
+        if isinstance(config, dict):
+            config["showSendToCloud"] = False

@@ -48,6 +48,10 @@ class Outputs:
     ) -> None:
         self.folder = None if out is None else Path(out)
         self._made_with = {"profile": profile, "seed": seed}
+        # Imported here: listing what there is to make needs no plotly.
+        from workbench.figures.style import offer_no_upload
+
+        offer_no_upload()
 
     def figure(
         self, item: str, figure: go.Figure, *, caption: str, alt: str, name: str = ""
