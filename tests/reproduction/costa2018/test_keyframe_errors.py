@@ -98,6 +98,8 @@ def test_one_clip_is_not_clips():
     """The caption of a single clip of a single length reads as a sentence."""
     text = describe_clips(TABLE[TABLE["dataset"] == "cmu/a"])
     assert text.startswith("1 CMU clip of 100 frames (a), where the thesis had 70")
+    ours = describe_clips(TABLE[TABLE["dataset"] == "cmu/a"], published="")
+    assert ours == text.replace(", where the thesis had 70", "")
 
 
 def test_the_caption_says_which_clips_and_what_failed():

@@ -237,7 +237,7 @@ def describe_clips(
     keyframes : str
         Which frames are keyframes.
     published : str
-        How many clips the thesis had.
+        How many clips the thesis had; empty for what is not in it.
 
     Returns
     -------
@@ -257,5 +257,6 @@ def describe_clips(
     number = "1 CMU clip" if len(clips) == 1 else f"{len(clips)} CMU clips"
     shortest, longest = lengths.min(), lengths.max()
     span = str(longest) if shortest == longest else f"{shortest} to {longest}"
-    text = f"{number} of {span} frames ({names}), where the thesis had {published}; {keyframes}."
+    theirs = f", where the thesis had {published}" if published else ""
+    text = f"{number} of {span} frames ({names}){theirs}; {keyframes}."
     return f"{text} {describe_failures(table)}".strip()
