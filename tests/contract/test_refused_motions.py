@@ -45,7 +45,7 @@ from workbench.mocap import (
 )
 from workbench.mocap import distances as pose_distances
 from workbench.mocap.contacts import feet_by_height, find_feet, foot_heights
-from workbench.mocap.curve_saliency import curve_curvature, curve_saliency
+from workbench.mocap.curve_saliency import curve_curvature, curve_saliency, saliency_maps
 from workbench.mocap.motion_saliency import motion_saliency
 from workbench.mocap.nearest_rotation import nearest_rotations
 from workbench.mocap.rotations import (
@@ -269,6 +269,7 @@ def of_motions() -> Iterator[Refused]:
             name = inspect.getsource(call).split(":")[1].split("(")[0].strip()
         yield from refused(name, call, OF_MOTION_FUNCTIONS)
     yield from refused("curve_saliency", curve_saliency, OF_CURVES)
+    yield from refused("saliency_maps", saliency_maps, OF_CURVES)
     yield from refused("motion_saliency", motion_saliency, OF_CURVES)
     yield from refused("curve_curvature", lambda curves, _: curve_curvature(curves), OF_CURVES[:4])
     yield from refused("rotations", None, OF_ROTATIONS)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import WorkbenchError
-from workbench.mocap.curve_saliency import curve_curvature, curve_saliency
+from workbench.mocap.curve_saliency import curve_curvature, curve_saliency, saliency_maps
 
 
 def printed_curvature(curve, curvature):
@@ -32,15 +32,22 @@ def printed_mean(bend, f, sigma):
     return weights @ bend[near] / weights.sum()
 
 
-def printed_saliency(curve, sigma, curvature):
-    """Compute Eq. 3.4 to 3.7 and the normalisation as they are printed, frame by frame."""
+def printed_maps(curve, sigma, curvature):
+    """Compute Eq. 3.4 to 3.7 as they are printed, frame by frame."""
     bend = printed_curvature(curve, curvature)
-    frames = range(len(curve))
     maps = []
-    for scale in (1.0, 1.5, 2.0, 2.5):
-        s = scale * sigma
-        maps.append([abs(printed_mean(bend, f, s) - printed_mean(bend, f, 2 * s)) for f in frames])
-    maps = np.array(maps)
+    for s in (sigma, 1.5 * sigma, 2.0 * sigma, 2.5 * sigma):
+        differences = [
+            printed_mean(bend, f, s) - printed_mean(bend, f, 2 * s) for f in range(len(curve))
+        ]
+        maps.append(np.abs(differences))
+    return np.array(maps)
+
+
+def printed_saliency(curve, sigma, curvature):
+    """Normalise the maps as it is printed, and add them."""
+    maps = printed_maps(curve, sigma, curvature)
+    frames = range(len(curve))
     largest = maps.max()
     total = np.zeros(len(curve))
     for row in maps:
@@ -61,9 +68,12 @@ def test_saliency_is_the_printed_formula(sigma, curvature):
     """Blockwise Fourier sums and single loops give what the formulas give, to 1e-10."""
     walk = np.cumsum(np.random.default_rng(3).normal(size=(2, 150)), axis=1)
     found = curve_saliency(walk.T, sigma, curvature=curvature)
-    for column, curve in zip(found.T, walk, strict=True):
+    maps = saliency_maps(walk.T, sigma, curvature=curvature)
+    for index, curve in enumerate(walk):
         expected = printed_saliency(curve, sigma, curvature)
-        assert np.allclose(column, expected, rtol=1e-10, atol=1e-10 * expected.max())
+        assert np.allclose(found[:, index], expected, rtol=1e-10, atol=1e-10 * expected.max())
+        expected = printed_maps(curve, sigma, curvature)
+        assert np.allclose(maps[:, :, index], expected, rtol=1e-10, atol=1e-10 * expected.max())
 
 
 def test_long_curves_are_cut_into_blocks_without_a_seam():

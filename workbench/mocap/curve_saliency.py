@@ -78,6 +78,39 @@ def curve_saliency(
     return np.ascontiguousarray(saliency.T)
 
 
+def saliency_maps(
+    curves: ArrayLike, sigma: float, *, curvature: str = "slope"
+) -> NDArray[np.float64]:
+    """Compute the four maps of which :func:`curve_saliency` makes one.
+
+    For a look at the scales one by one, or to put the maps together in another way.
+
+    Parameters
+    ----------
+    curves, sigma, curvature
+        As for :func:`curve_saliency`.
+
+    Returns
+    -------
+    ndarray of shape (4, n_frames, n_curves)
+        |G(f, σ_i) − G(f, 2σ_i)| at the scales of :data:`SCALES` (Halit 2010, Eq. 3.5 to 3.7).
+
+    Raises
+    ------
+    WorkbenchError
+        If there are fewer than 3 frames, numbers that are not finite, or σ is below 1.
+
+    Examples
+    --------
+    >>> bump = np.exp(-(((np.arange(101.0) - 50.0) / 4.0) ** 2))
+    >>> saliency_maps(bump[:, None], sigma=2).argmax(axis=1).ravel()
+    array([50, 50, 50, 50])
+    """
+    bends = np.ascontiguousarray(curve_curvature(curves, curvature).T)
+    centre_surround = _CentreSurround(check_sigma(sigma), bends.shape[1])
+    return np.stack([np.abs(centre_surround(bend)) for bend in bends], axis=-1)
+
+
 def _add_saliency(bends: NDArray[np.float64], sigma: float, saliency: NDArray[np.float64]) -> None:
     """Add the four maps of curves, whose curvature is given, to their saliency, in place."""
     centre_surround = _CentreSurround(sigma, bends.shape[1])

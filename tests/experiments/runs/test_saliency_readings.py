@@ -1,4 +1,4 @@
-"""The saliency method computed a second time, and read otherwise."""
+"""The saliency method, read otherwise."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from workbench import load_space
 from workbench.datasets.catalogue import lookup
 from workbench.datasets.loaders import status
 from workbench.errors import WorkbenchError
-from workbench.experiments.runs.saliency_readings import SaliencyReadingRun, saliency_maps
+from workbench.experiments.runs.saliency_readings import SaliencyReadingRun
 from workbench.experiments.runs.saliency_times import SaliencyTimeRun, played_forth_and_back
 from workbench.experiments.runs.shared import SharedSteps
 from workbench.mocap.motion_saliency import motion_saliency
@@ -40,7 +40,7 @@ def keyframes(shared, **reading):
 @pytest.mark.parametrize("unit_variance", [True, False])
 @pytest.mark.parametrize("width", [2.0, 4.0])
 def test_the_readings_of_the_library_are_computed_alike(shared, curvature, unit_variance, width):
-    """Two implementations from the same formulas choose the same frames."""
+    """Normalised and compared in two places, the same maps lead to the same frames."""
     expected = motion_saliency(
         shared.space.samples,
         6.0,
@@ -51,23 +51,6 @@ def test_the_readings_of_the_library_are_computed_alike(shared, curvature, unit_
     ).keyframes
     found = keyframes(shared, curvature=curvature, unit_variance=unit_variance, cluster_width=width)
     assert np.array_equal(found, expected)
-
-
-def test_maps_are_differences_of_weighted_means():
-    """Eq. 3.5 and 3.6 by their sums, frame by frame."""
-    bends = np.random.default_rng(1).random((30, 2))
-    maps = saliency_maps(bends, 2.0)
-    assert maps.shape == (4, 30, 2)
-
-    def mean(frame, width):
-        inside = [x for x in range(30) if abs(x - frame) <= 2 * width]
-        weights = np.exp(-((np.array(inside) - frame) ** 2) / (2 * width**2))
-        return weights @ bends[inside] / weights.sum()
-
-    for scale, width in enumerate((2.0, 3.0, 4.0, 5.0)):
-        for frame in (0, 7, 29):
-            expected = np.abs(mean(frame, width) - mean(frame, 2 * width))
-            assert maps[scale, frame] == pytest.approx(expected)
 
 
 def test_a_common_factor_of_a_curve_changes_no_candidate_of_its_own(shared):

@@ -1,4 +1,4 @@
-"""Runs of the saliency method as it can be read, step by step in the plainest form."""
+"""Runs of the saliency method with its ambiguous steps read in every way."""
 
 from __future__ import annotations
 
@@ -8,13 +8,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
 
 from workbench.errors import WorkbenchError
 from workbench.experiments.runs.keyframes import motion_curves
 from workbench.experiments.runs.shared import SharedSteps
 from workbench.experiments.store import Arrays, Row
-from workbench.mocap.curve_saliency import SCALES, curve_curvature
+from workbench.mocap.curve_saliency import saliency_maps
 from workbench.mocap.motion_saliency import motion_saliency
 from workbench.quality.animation import angle_errors, psnr_of_error
 from workbench.selection.curves import rebuilt_linearly
@@ -31,9 +30,9 @@ THRESHOLDS = ("curve", "motion", "summed")
 class SaliencyReadingRun:
     """The saliency method on one motion, with each ambiguous step read in one way.
 
-    The method is computed here a second time, from its formulas alone, so that the readings
-    which the library does not offer can be tried; the default ones are the library's
-    (:func:`~workbench.mocap.motion_saliency.motion_saliency`).
+    The maps are the library's; they are normalised and compared here, so that readings which
+    the library does not offer can be tried. The default ones are those of
+    :func:`~workbench.mocap.motion_saliency.motion_saliency`.
 
     Parameters
     ----------
@@ -139,8 +138,8 @@ class SaliencyReadingRun:
             curvature=self.curvature,
             cluster_width=self.cluster_width,
         )
-        bends = curve_curvature(found.curves, self.curvature)
-        saliency = _saliency(saliency_maps(bends, self.sigma), self.normalization)
+        maps = saliency_maps(found.curves, self.sigma, curvature=self.curvature)
+        saliency = _saliency(maps, self.normalization)
         if self.threshold == "curve":
             candidates = saliency > saliency.mean(axis=0)
         elif self.threshold == "motion":
@@ -150,32 +149,6 @@ class SaliencyReadingRun:
             candidates = np.repeat(sums > sums.mean(), saliency.shape[1], axis=1)
         read = replace(found, saliency=saliency, candidates=candidates)
         return read.keyframes_of_clusters(found.cluster_length)
-
-
-def saliency_maps(bends: NDArray[np.float64], sigma: float) -> NDArray[np.float64]:
-    """Compute |G(f, σ_i) − G(f, 2σ_i)| at the four scales (Eq. 3.5 to 3.7).
-
-    Parameters
-    ----------
-    bends : ndarray of shape (n_frames, n_curves)
-        Curvature of each curve in each frame.
-    sigma : float
-        σ in frames.
-
-    Returns
-    -------
-    ndarray of shape (n_scales, n_frames, n_curves)
-        Weights of frames inside the clip add up to 1.
-    """
-
-    def mean(width: float) -> NDArray[np.float64]:
-        window = {"sigma": width, "axis": 0, "mode": "constant", "radius": int(2 * width)}
-        inside = gaussian_filter1d(np.ones((len(bends), 1)), **window)
-        averaged: NDArray[np.float64] = gaussian_filter1d(bends, **window) / inside
-        return averaged
-
-    widths = [scale * sigma for scale in SCALES]
-    return np.stack([np.abs(mean(width) - mean(2.0 * width)) for width in widths])
 
 
 def _saliency(maps: NDArray[np.float64], normalization: str) -> NDArray[np.float64]:
