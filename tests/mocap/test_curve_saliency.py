@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from workbench.errors import WorkbenchError
@@ -113,6 +113,7 @@ def test_the_curvature_is_that_of_the_graph():
     sigma=st.floats(1, 500),
     curvature=st.sampled_from(["slope", "value"]),
 )
+@example(seed=13248, n_frames=3, sigma=86.0, curvature="slope")
 def test_saliency_does_not_know_the_direction_of_time(seed, n_frames, sigma, curvature):
     """Curves run backwards, or upside down, are as salient in the same frames."""
     curves = np.cumsum(np.random.default_rng(seed).normal(size=(n_frames, 2)), axis=0)
@@ -120,9 +121,14 @@ def test_saliency_does_not_know_the_direction_of_time(seed, n_frames, sigma, cur
     assert found.shape == curves.shape
     assert found.min() >= 0
     assert np.isfinite(found).all()
-    scale = found.max(axis=0)
+    # Windows much wider than the clip hardly differ, and peaks of about one height nearly
+    # cancel. What is then left of the curvature's rounding, 1e-10 of it, meets the square of
+    # the largest map, in four maps, the smallest of which is stretched about sevenfold.
+    largest = saliency_maps(curves, sigma, curvature=curvature).max(axis=(0, 1))
+    rounding = 1e-10 * curve_curvature(curves, curvature).max(axis=0)
+    tolerance = 1e-6 * found.max(axis=0) + 100 * rounding * largest**2
     turned = curve_saliency(curves[::-1], sigma, curvature=curvature)[::-1]
-    assert np.all(np.abs(turned - found) <= 1e-6 * scale)
+    assert np.all(np.abs(turned - found) <= tolerance)
     assert np.array_equal(curve_saliency(-curves, sigma, curvature=curvature), found)
 
 

@@ -93,9 +93,9 @@ def test_clips_with_a_failed_run_are_not_averaged(results: pd.DataFrame):
 
 
 def test_profiles_spread_over_the_clips():
-    """The quick profile takes three excerpts and fewer schemes."""
+    """The quick profile takes two excerpts and fewer schemes."""
     runs = compression.planned_runs("quick", 5)
-    assert len({run.dataset for run in runs}) == 3
+    assert len({run.dataset for run in runs}) == 2
     compactions = [run for run in runs if isinstance(run, CompactionRun)]
-    assert len(compactions) == 3 * 3 * 3
+    assert len(compactions) == 2 * 3 * 3
     assert {run.seed for run in compactions} == {5}
