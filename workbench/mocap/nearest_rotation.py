@@ -16,7 +16,9 @@ from workbench.validation import as_numbers
 @compiled
 def _quaternion_of_largest_eigenvalue(symmetric, quaternion):  # type: ignore[no-untyped-def]  # compiled
     """Write the unit eigenvector of a 4 x 4 matrix's largest eigenvalue (cyclic Jacobi)."""
-    vectors = np.eye(4)
+    vectors = np.zeros((4, 4))
+    for r in range(4):
+        vectors[r, r] = 1.0
     for _ in range(30):
         off = 0.0
         for p in range(3):
@@ -54,15 +56,22 @@ def _nearest_rotation_by_quaternion(m):  # type: ignore[no-untyped-def]  # compi
     """Solve for the nearest proper rotation of any matrix, singular or reflecting too.
 
     Maximises Tr(Rᵀ M) over unit quaternions (Horn 1987), an eigenvalue problem. Tells
-    whether there is one: not if an entry is not finite.
+    whether there is one: not if an entry is not finite. Loops, because operations on whole
+    arrays would take four times as long to compile.
     """
-    if not np.isfinite(m).all():
-        return False
-    scale = np.abs(m).max()
-    if scale == 0.0:
-        m[:] = np.eye(3)
-        return True
-    a = m / scale
+    scale = 0.0
+    for row in range(3):
+        for column in range(3):
+            if not math.isfinite(m[row, column]):
+                return False
+            scale = max(scale, abs(m[row, column]))
+    a = np.zeros((3, 3))
+    for row in range(3):
+        # The zero matrix is as near to all rotations; that which turns nothing stands for it.
+        a[row, row] = 1.0
+        for column in range(3):
+            if scale > 0.0:
+                a[row, column] = m[row, column] / scale
     k = np.empty((4, 4))
     k[0, 0] = a[0, 0] + a[1, 1] + a[2, 2]
     k[1, 1] = a[0, 0] - a[1, 1] - a[2, 2]

@@ -36,10 +36,10 @@ def _nearest_rotation_and_derivatives(m, derivatives):  # type: ignore[no-untype
     c11, c12, c22 = g00 * g22 - g02 * g02, g01 * g02 - g00 * g12, g00 * g11 - g01 * g01
     determinant = g00 * c00 + g01 * c01 + g02 * c02
     mean = (g00 + g11 + g22) / 3.0
-    if not determinant > 1e-12 * mean * mean * mean:
-        derivatives[:] = 0.0
-        return True
-    inverse = 1.0 / determinant
+    # Without a derivative, 0 is given.
+    inverse = 0.0
+    if determinant > 1e-12 * mean * mean * mean:
+        inverse = 1.0 / determinant
     for n in range(derivatives.shape[0]):
         d = derivatives[n]
         # The axial vector of Rᵀ dM − (Rᵀ dM)ᵀ.

@@ -10,11 +10,10 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import prange
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.kernels import compiled_parallel
+from workbench.kernels import compiled
 from workbench.mocap.channels import motion_to_euler, rotation_columns
 from workbench.spaces import PoseSpace
 from workbench.validation import MIN_SAMPLES, as_numbers, finite, require_memory
@@ -209,14 +208,14 @@ def with_ends(fixed: NDArray[np.intp], n_frames: int, count: int) -> NDArray[np.
     return keys
 
 
-@compiled_parallel
+@compiled
 def _quaternions(rotations, quaternions):  # type: ignore[no-untyped-def]  # compiled
     """Write the quaternions (w, x, y, z) of (n_frames, n_joints, 3, 3) by joint and part.
 
     Computed from the largest of the four components, because each of them alone is badly
     conditioned somewhere.
     """
-    for joint in prange(rotations.shape[1]):
+    for joint in range(rotations.shape[1]):
         for frame in range(rotations.shape[0]):
             m = rotations[frame, joint]
             trace = m[0, 0] + m[1, 1] + m[2, 2]
