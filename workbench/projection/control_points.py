@@ -68,12 +68,17 @@ class ControlPointProjector(ABC):
         """
         check_space(space)
         indices = control_point_indices(control_points, len(space))
-        wanted = as_embedding(positions, "positions", len(indices))
-        different, self.positions_ = _merge_equal(_telling_features(space, indices), wanted)
+        self._learn(space, indices, as_embedding(positions, "positions", len(indices)))
+        return self
+
+    def _learn(
+        self, space: Space, indices: NDArray[np.intp], positions: NDArray[np.float64]
+    ) -> None:
+        """Learn from checked input; positions may have any number of columns."""
+        different, self.positions_ = _merge_equal(_telling_features(space, indices), positions)
         self.space_ = space
         self.control_samples_ = space.samples[indices[different]]
         self._fit()
-        return self
 
     def transform(self, samples: ArrayLike) -> NDArray[np.float64]:
         """Place samples on the map.
@@ -147,6 +152,6 @@ def _merge_equal(
             f"{len(features) - len(first)} control points equal others but have different "
             "positions; they get the mean of these",
             DegenerateDataWarning,
-            stacklevel=3,
+            stacklevel=4,
         )
     return first, means

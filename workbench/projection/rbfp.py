@@ -8,11 +8,12 @@ from numbers import Real
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
 from workbench.projection.control_points import ControlPointProjector
-from workbench.spaces import VectorSpace
+from workbench.spaces import Space, VectorSpace, check_space
+from workbench.validation import control_point_indices, require_memory
 
 Kernel = Callable[[NDArray[np.float64]], NDArray[np.float64]]
 
@@ -95,6 +96,60 @@ class RBFP(ControlPointProjector):
         self.kernel = kernel
         self.epsilon = epsilon
         self.smoothing = smoothing
+
+    def influence(self, space: Space, control_points: ArrayLike) -> NDArray[np.float64]:
+        """Say how much each control point's position counts for each sample.
+
+        Placing is linear: ``influence @ positions``, with the positions of the control points,
+        places all samples as ``fit`` and ``transform`` do with the same ε, wherever control
+        points move. The ε is one that serves all positions, so it may be larger than the one
+        that ``fit`` finds enough for those at hand.
+
+        Parameters
+        ----------
+        space : Space
+            The samples.
+        control_points : array-like of shape (n_control_points,)
+            Sorted indices.
+
+        Returns
+        -------
+        ndarray of shape (n_samples, n_control_points)
+            Rows of control points are unit vectors, also of those equal to others.
+
+        Raises
+        ------
+        WorkbenchError
+            If the indices are not valid.
+        DataError
+            If the free memory does not suffice.
+
+        Examples
+        --------
+        >>> space = VectorSpace([[0.0], [1.0], [2.0], [3.0]])
+        >>> influence = RBFP("linear").influence(space, [0, 1, 3])
+        >>> (influence @ [[0.0, 0.0], [1.0, 1.0], [3.0, 1.0]]).round(9) + 0.0
+        array([[0., 0.],
+               [1., 1.],
+               [2., 1.],
+               [3., 1.]])
+        """
+        check_space(space)
+        indices = control_point_indices(control_points, len(space))
+        require_memory(
+            16.0 * len(space) * len(indices),
+            f"the influence of {len(indices)} control points on {len(space)} samples",
+            "take fewer control points",
+        )
+        unit = np.eye(len(indices))
+        with warnings.catch_warnings():
+            # Equal control points have different unit vectors whatever their positions are.
+            warnings.simplefilter("ignore", DegenerateDataWarning)
+            warnings.simplefilter("ignore", AdjustmentWarning)
+            self._learn(space, indices, unit)
+        shares = self.transform(space.samples)
+        shares[indices] = unit
+        return shares
 
     def _fit(self) -> None:
         distances = self._distances(self.control_samples_)

@@ -122,6 +122,36 @@ def shepard_goodness(pairs: ShepardPairs) -> float:
     return float(spearmanr(pairs.data, pairs.embedding).statistic)
 
 
+def monotone_fit(pairs: ShepardPairs) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Fit the line of a Shepard diagram: distances in the embedding that never fall.
+
+    The non-decreasing function of the data's distances with the least sum of squared
+    differences to the embedding's, by isotonic regression (Kruskal 1964). Equal distances in
+    the data have equal values (the secondary approach to ties).
+
+    Parameters
+    ----------
+    pairs : ShepardPairs
+        All pairs or a sample of them.
+
+    Returns
+    -------
+    distances, fitted : ndarray of shape (n_distances,)
+        The data's different distances in rising order, and the function's values there.
+
+    Examples
+    --------
+    >>> pairs = shepard_pairs([[0, 1, 3], [1, 0, 2], [3, 2, 0]], [[0, 0], [4, 0], [2, 0]])
+    >>> monotone_fit(pairs)
+    (array([1., 2., 3.]), array([2.66666667, 2.66666667, 2.66666667]))
+    """
+    from scipy.optimize import isotonic_regression
+
+    values, where, counts = np.unique(pairs.data, return_inverse=True, return_counts=True)
+    means = np.bincount(where, pairs.embedding, len(values)) / counts
+    return values, isotonic_regression(means, weights=counts.astype(np.float64)).x
+
+
 def nonmetric_stress(pairs: ShepardPairs) -> float:
     """Compute Kruskal's stress-1 of the order of distances, whatever their size.
 
@@ -150,11 +180,8 @@ def nonmetric_stress(pairs: ShepardPairs) -> float:
     >>> nonmetric_stress(pairs)
     0.0
     """
-    from scipy.optimize import isotonic_regression
-
-    values, where, counts = np.unique(pairs.data, return_inverse=True, return_counts=True)
-    means = np.bincount(where, pairs.embedding, len(values)) / counts
-    fitted = isotonic_regression(means, weights=counts.astype(np.float64)).x[where]
+    values, line = monotone_fit(pairs)
+    fitted = line[np.searchsorted(values, pairs.data)]
     total = float(pairs.embedding @ pairs.embedding)
     if total == 0:
         raise WorkbenchError("embedding: got one place for all samples, want different places")

@@ -8,7 +8,8 @@ else, so all other steps serve both.
 from __future__ import annotations
 
 from workbench.spaces.base import Space, check_space
+from workbench.spaces.clips import ClipSpace
 from workbench.spaces.poses import PoseSpace
 from workbench.spaces.vectors import VectorSpace
 
-__all__ = ["PoseSpace", "Space", "VectorSpace", "check_space"]
+__all__ = ["ClipSpace", "PoseSpace", "Space", "VectorSpace", "check_space"]
