@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from workbench.datasets import load, load_space
 from workbench.datasets.clips import EXCERPTS
+from workbench.errors import DataError
 from workbench.mocap import joint_positions
 from workbench.mocap.motion import Motion
+from workbench.resources import bundled
 
 FEET = ("LeftFoot", "RightFoot")
 HANDS = ("LeftHand", "RightHand")
@@ -145,3 +147,26 @@ def test_excerpts_are_spaces_of_poses() -> None:
     space = load_space("cmu/01_01-jump")
     assert len(space) == 300
     assert space.name == "cmu/01_01-jump"
+
+
+def test_excerpts_of_one_clip_are_independent() -> None:
+    """Changing an excerpt changes neither itself when it is loaded again, nor another one."""
+    first, start = excerpt("01_01-jump"), excerpt("01_01").rotations
+    kept = first.rotations.copy()
+    first.rotations[:] = 0.0
+    np.testing.assert_array_equal(excerpt("01_01-jump").rotations, kept)
+    turn = next(row for row in EXCERPTS if row[0] == "01_01-turn")
+    np.testing.assert_array_equal(excerpt("01_01-turn").rotations, start[turn[1] : turn[2]])
+
+
+def test_a_clip_that_changes_is_read_anew(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A clip that is damaged after an excerpt was loaded is noticed with the next."""
+    folder = tmp_path / "mocap" / "bvh"
+    folder.mkdir(parents=True)
+    source = next(bundled("datasets").rglob("01_01.bvh"))
+    (folder / source.name).write_bytes(source.read_bytes())
+    monkeypatch.setenv("WORKBENCH_DATA", str(tmp_path))
+    assert len(excerpt("01_01-jump")) == 300
+    (folder / source.name).write_bytes(source.read_bytes().replace(b"Frame Time: ", b"Time: "))
+    with pytest.raises(DataError, match="Frame Time"):
+        excerpt("01_01-turn")

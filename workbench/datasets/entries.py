@@ -6,7 +6,9 @@ import hashlib
 import re
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
+from copy import deepcopy
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar
 
@@ -254,7 +256,20 @@ class ExcerptEntry(Entry):
 
     def read(self, path: Path) -> Motion:
         """Read and check the whole clip and cut the excerpt out."""
-        return replace(self.clip.read(path)[self.start : self.stop], name=self.name)
+        status = path.stat()
+        whole = _last_clip(self.clip, path, (status.st_mtime_ns, status.st_size))
+        # A copy: who changes an excerpt does not change those that are cut out next.
+        return replace(deepcopy(whole[self.start : self.stop]), name=self.name)
+
+
+@lru_cache(maxsize=1)
+def _last_clip(
+    clip: ClipEntry,
+    path: Path,
+    version: tuple[int, int],  # noqa: ARG001 - a file that has changed is read again
+) -> Motion:
+    """Read a clip; once for all of its excerpts that are asked for one after the other."""
+    return clip.read(path)
 
 
 def read_joint_angles(path: Path) -> Table:

@@ -96,10 +96,9 @@ def bootstrap(
     n_units, n_seeds = data.shape[:2]
     flat = data.reshape(n_units * n_seeds, *data.shape[2:])
     generator = np.random.default_rng(random_state)
-    drawn = []
-    for _ in range(N_RESAMPLES):
-        units = generator.integers(n_units, size=(n_units, 1))
-        chosen = units * n_seeds + generator.integers(n_seeds, size=(n_units, n_seeds))
-        drawn.append(statistic(flat[chosen.ravel()]))
+    # All at once: a call of the generator takes longer than the numbers that it draws.
+    units = generator.integers(n_units, size=(N_RESAMPLES, n_units, 1))
+    chosen = units * n_seeds + generator.integers(n_seeds, size=(N_RESAMPLES, n_units, n_seeds))
+    drawn = [statistic(flat[rows]) for rows in chosen.reshape(N_RESAMPLES, -1)]
     low, high = np.quantile(drawn, [(1 - level) / 2, (1 + level) / 2])
     return Estimate(float(statistic(flat)), float(low), float(high), n_units, n_seeds)

@@ -90,9 +90,7 @@ def uci_runs(
     return runs
 
 
-def finished(
-    results: pd.DataFrame, table: UciTable, method: str | None = None
-) -> list[dict[Any, Any]]:
+def finished(results: pd.DataFrame, table: UciTable, method: str | None = None) -> pd.DataFrame:
     """Find the finished runs of a table with a seed projector, by default its figure's.
 
     Data as they are come first, and the first seed.
@@ -102,7 +100,7 @@ def finished(
         & (results["dataset"] == table.dataset)
         & (results["scheme"] == scheme_name(scheme_of(method or table.method)))
     ]
-    return rows.sort_values(["standardize", "seed"]).to_dict("records")
+    return rows.sort_values(["standardize", "seed"])
 
 
 def uci_panels(results: pd.DataFrame, table: UciTable, store: ResultStore) -> list[Panel]:
@@ -241,10 +239,7 @@ def data_name(row: dict[Any, Any]) -> str:
 
 
 def _first_seeds(results: pd.DataFrame, table: UciTable) -> list[dict[Any, Any]]:
-    first: dict[bool, dict[Any, Any]] = {}
-    for row in finished(results, table):
-        first.setdefault(bool(row["standardize"]), row)
-    return list(first.values())
+    return finished(results, table).drop_duplicates("standardize").to_dict("records")
 
 
 def _ratios(row: dict[Any, Any]) -> str:

@@ -43,13 +43,10 @@ def ratios_of(
     found = {}
     for table in UCI_TABLES:
         for method in PROJECTORS:
-            values = [
-                float(row[column])
-                for row in finished(results, table, method)
-                if bool(row["standardize"]) == standardize and pd.notna(row[column])
-            ]
-            if values:
-                found[table.title, method] = values
+            rows = finished(results, table, method)
+            values = rows.loc[rows["standardize"] == standardize, column].dropna()
+            if len(values):
+                found[table.title, method] = values.astype(float).tolist()
     return found
 
 
@@ -192,9 +189,6 @@ def _falling(found: dict[tuple[str, str], list[float]]) -> str:
 
 def _error_ratio(results: pd.DataFrame, title: str, method: str, standardize: bool) -> float:
     table = next(table for table in UCI_TABLES if table.title == title)
-    ratios = [
-        row["error"] / row["projected_error"]
-        for row in finished(results, table, method)
-        if bool(row["standardize"]) == standardize and row["projected_error"] > 0
-    ]
-    return float(np.median(ratios)) if ratios else np.nan
+    rows = finished(results, table, method)
+    rows = rows[(rows["standardize"] == standardize) & (rows["projected_error"] > 0)]
+    return float((rows["error"] / rows["projected_error"]).median())
