@@ -53,6 +53,7 @@ class Descent:
     errors: NDArray[np.float64] = field(init=False)
 
     def __post_init__(self) -> None:
+        self.objective.stage = "start"
         if self.objective.has_derivatives:
             derivatives = self.objective.derivatives(self.points, self.indices)
             self.errors, self._gradients, self._curvatures = derivatives
@@ -95,6 +96,7 @@ def _newton(
             return
         # Cut off again: a sum may be rounded to beyond the bounds.
         places = np.clip(points[active] + steps, low, high)
+        objective.stage = "step"
         tried = objective.derivatives(places, indices[active])
         success = (errors[active] - tried[0]) / gains
         lengths = np.linalg.norm(steps, axis=1)
@@ -133,6 +135,7 @@ def _probing(descent: Descent) -> Iterator[None]:
             return
         here, sample, n = points[active], indices[active], len(active)
         probes = np.clip(here + radii[active, None] * directions[:, None], low, high)
+        objective.stage = "probe"
         probed = objective(
             probes.reshape(-1, dimensions), np.tile(sample, len(directions))
         ).reshape(-1, n)
@@ -142,6 +145,7 @@ def _probing(descent: Descent) -> Iterator[None]:
         vertex = np.divide(-slope, bend, out=-np.sign(slope), where=bend > np.abs(slope))
         middle = np.clip(here + radii[active, None] * vertex.T, low, high)
         candidates = np.concatenate([probes, middle[None]])
+        objective.stage = "vertex"
         values = np.concatenate([probed, objective(middle, sample)[None]])
         best = values.argmin(axis=0)
         value = values[best, np.arange(n)]

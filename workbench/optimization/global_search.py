@@ -109,6 +109,7 @@ class GlobalSearch(Search):
         progress: Progress,
         bounds: tuple[NDArray[np.float64], NDArray[np.float64]],
     ) -> Iterator[None]:
+        objective.stage = "start"
         progress.begin(objective(progress.points, progress.free))
         progress.reason = "no sample found a better place"
         yield from _Run(objective, progress, bounds, self).steps()
@@ -181,7 +182,10 @@ class _Run:
         free = self.progress.free
         for turn in range(min(share, len(coarse.points), len(free))):
             which = np.arange(turn, len(free), share)
-            errors = self.objective.table(free[which], coarse.reconstructions[turn::share])
+            self.objective.stage = "coarse"
+            errors = self.objective.table(
+                free[which], coarse.reconstructions[turn::share], coarse.points[turn::share]
+            )
             best = errors.argmin(axis=1)
             lowest = errors[np.arange(len(which)), best]
             radii[which[lowest < self.progress.errors[which]]] = coarse.spacing
@@ -204,7 +208,10 @@ class _Run:
         self, which: NDArray[np.intp], coarse: _CoarsePoints
     ) -> tuple[NDArray[np.intp], NDArray[np.float64]]:
         """Find each sample's best few of all coarse points."""
-        errors = self.objective.table(self.progress.free[which], coarse.reconstructions)
+        self.objective.stage = "scout"
+        errors = self.objective.table(
+            self.progress.free[which], coarse.reconstructions, coarse.points
+        )
         scouts, starts = [], []
         for _ in range(self.settings.starts):
             best = errors.argmin(axis=1)
@@ -243,6 +250,7 @@ class _Run:
     ) -> NDArray[np.float64]:
         """Estimate what error samples would reach from places, by one step of a descent."""
         indices = self.progress.free[which]
+        self.objective.stage = "neighbor"
         if not self.objective.has_derivatives:
             return self.objective(places, indices)
         model = ErrorModel(*self.objective.derivatives(places, indices))

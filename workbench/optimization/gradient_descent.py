@@ -111,6 +111,7 @@ class GradientDescent:
         free = control_point_indices(free, len(points), name="free")
         pairs = as_neighbors(neighbors, len(points))[free]
         started_at = objective.effort
+        objective.stage = "start"
         errors = objective(points[free], free)
         history = [float(errors.mean())]
         best, best_points, best_errors = history[0], points.copy(), errors
@@ -119,6 +120,7 @@ class GradientDescent:
             radii = neighbor_radii(points, free, pairs)
             directions = self._directions(objective, points[free], free, errors, radii)
             points[free] += self.step * radii[:, None] * directions
+            objective.stage = "step"
             errors = objective(points[free], free)
             history.append(float(errors.mean()))
             if history[-1] < best:
@@ -150,6 +152,7 @@ class GradientDescent:
         n, dimensions = points.shape
         offsets = np.concatenate([np.eye(dimensions), -np.eye(dimensions)])
         probes = points + self.probe * radii[:, None] * offsets[:, None]
+        objective.stage = "probe"
         probed = objective(probes.reshape(-1, dimensions), np.tile(free, 2 * dimensions))
         forward, backward = probed.reshape(2, dimensions, n)
         better = (forward < errors) | (backward < errors)

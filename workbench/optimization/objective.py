@@ -78,6 +78,9 @@ class Objective:
     ----------
     effort : Effort
         What was computed so far.
+    stage : str
+        What the search tries next, in a word, for those who watch it
+        (:mod:`workbench.optimization.trace`); the values do not depend on it.
     """
 
     def __init__(
@@ -87,6 +90,7 @@ class Objective:
         self._errors = errors
         self._space = space
         self.effort = Effort()
+        self.stage = ""
 
     @classmethod
     def of(cls, space: Space, back_projector: BackProjector) -> Objective:
@@ -187,7 +191,10 @@ class Objective:
         return rebuilt
 
     def table(
-        self, indices: NDArray[np.intp], reconstructions: NDArray[np.float64]
+        self,
+        indices: NDArray[np.intp],
+        reconstructions: NDArray[np.float64],
+        points: NDArray[np.float64] | None = None,  # noqa: ARG002 - for objectives that record
     ) -> NDArray[np.float64]:
         """Evaluate the error of every reconstruction as one of every given sample.
 
@@ -197,6 +204,8 @@ class Objective:
             Samples.
         reconstructions : ndarray of shape (n_reconstructions, ...)
             As :meth:`back_project` gives them.
+        points : ndarray of shape (n_reconstructions, n_dimensions), optional
+            Where they were rebuilt, for those who watch.
 
         Returns
         -------
