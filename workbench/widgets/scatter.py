@@ -13,6 +13,12 @@ from workbench.errors import WorkbenchError
 from workbench.widgets.arrays import ArrayTrait, SelectionTrait
 from workbench.widgets.module import es_module, style_sheet
 
+# The browser's side; a part uses only those before it, except within functions.
+_PARTS = (
+    *("state", "marks", "colours", "legend", "placement", "cloud", "panel"),
+    *("brush", "mover", "saving", "toolbar"),
+)
+
 
 class ScatterPanels(anywidget.AnyWidget):
     """Show several embeddings of the same samples side by side.
@@ -77,7 +83,7 @@ class ScatterPanels(anywidget.AnyWidget):
     [0, 1]
     """
 
-    _esm = es_module("panel", "scatter")
+    _esm = es_module(*_PARTS, "scatter")
     _css = style_sheet()
 
     panels = traitlets.List(traitlets.Dict(), maxlen=6).tag(sync=True)

@@ -1,27 +1,40 @@
-// Scatter panels with linked selecting and hovering, their tool bar and their legend.
+// Scatter panels with linked selecting, hovering and moving.
 
-const CLICK = 4; // a shorter drag is a click
 const NARROWEST = 230;
+const MOST_COLUMNS = 4;
 const CRISP = 5000; // from this many samples on, soft rims cannot be seen
-const HINT =
-  "Drag or click to select, Shift adds, Escape clears. In a focused panel the arrow keys move " +
-  "from sample to sample, up and down by ten; Enter or Space selects.";
+const DATA = [
+  "points", "raw_points", "classes", "class_names", "color_by", "values", "value_name", "value_best",
+  "control_points", "influence", "movable", "sample_word", "transition", "offers_html",
+];
+const HINTS = {
+  select:
+    "Drag or click to select, Shift adds, Escape clears. In a focused panel the arrow keys move " +
+    "from sample to sample, up and down by ten; Enter or Space selects.",
+  move:
+    "Drag a cross: the other samples follow. In a focused panel the arrow keys lead from one " +
+    "control point to the next; Enter picks it up, the arrow keys move it (Shift: by one pixel), " +
+    "Enter drops it, Escape puts it back.",
+};
 
 class Scatter {
   constructor(model, root, signal) {
-    this.model = model;
-    this.root = root;
-    this.signal = signal;
+    Object.assign(this, { model, root, signal });
     this.panels = [];
     this.chosen = [];
     this.hovered = -1;
     this.mode = "rectangle";
+    this.stage = "final";
+    this.tool = null; // what the mouse drags with
+    this.brush = new Brush(this);
+    this.mover = new Mover(this);
     this.build();
-    this.readData();
+    this.read();
     onTraits(model, ["panels"], () => this.readPanels(), signal);
-    const data = ["points", "classes", "class_names", "color_by", "control_points", "sample_word"];
-    onTraits(model, data, () => this.readData(), signal);
+    onTraits(model, DATA, () => this.read(), signal);
+    onTraits(model, ["moved"], () => this.readMoved(), signal);
     onTraits(model, ["selection"], () => this.readSelection(), signal);
+    onHover(model, (sample) => this.follow(sample), signal);
     watchTheme(() => this.restyle(), signal);
     const observer = new ResizeObserver(() => this.resize());
     observer.observe(root);
@@ -29,80 +42,152 @@ class Scatter {
   }
 
   build() {
-    const button = (text, act, pressed) => {
-      const node = element("button", { type: "button", text, "aria-pressed": pressed });
-      node.addEventListener("click", act, { signal: this.signal });
-      return node;
-    };
-    const choose = (mode) => () => {
-      this.mode = mode;
-      this.rectangle.setAttribute("aria-pressed", String(mode === "rectangle"));
-      this.lasso.setAttribute("aria-pressed", String(mode === "lasso"));
-    };
-    this.rectangle = button("Rectangle", choose("rectangle"), "true");
-    this.lasso = button("Lasso", choose("lasso"), "false");
-    this.clearing = button("Clear selection", () => this.select([]));
-    this.count = element("span", { class: "wb-count" });
-    this.hoverText = element("span", { class: "wb-hover" });
-    const shapes = element("span", { class: "wb-group", role: "group", "aria-label": "Shape of the selection" }, [this.rectangle, this.lasso]);
-    const bar = element("div", { class: "wb-bar" }, [shapes, this.clearing, this.count, this.hoverText]);
+    this.toolbar = new Toolbar(this, this.signal);
     this.grid = element("div", { class: "wb-grid" });
     this.legend = element("div", { class: "wb-legend", role: "group", "aria-label": "Legend" });
+    this.remark = element("div", { class: "wb-remark", role: "status" });
     this.live = element("div", { class: "wb-live", role: "status", "aria-live": "polite" });
     const hintId = `wb-hint-${Math.random().toString(36).slice(2)}`;
-    this.hint = element("p", { class: "wb-hint", id: hintId, text: HINT });
-    this.root.append(bar, this.grid, this.legend, this.hint, this.live);
+    this.hint = element("p", { class: "wb-hint", id: hintId, text: HINTS.select });
+    this.root.append(this.toolbar.node, this.remark, this.grid, this.legend, this.hint, this.live);
   }
+
+  // Reading traits.
 
   readPanels() {
     const specs = this.model.get("panels");
-    if (specs.length !== this.panels.length) return this.readData();
-    const { n, word } = this.state;
-    this.panels.forEach((panel, i) => panel.describe(specs[i], n, word));
+    if (specs.length !== this.panels.length) return this.read();
+    this.state.specs = specs;
+    this.describe();
   }
 
-  readData() {
-    const specs = this.model.get("panels");
-    while (this.panels.length > specs.length) this.panels.pop().figure.remove();
-    while (this.panels.length < specs.length) {
+  read() {
+    const before = this.state;
+    const state = readState(this.model);
+    this.state = state;
+    if (this.tool || this.mover.grip) this.abandon();
+    this.matchPanels();
+    const sameSamples = before?.n === state.n && before.panels === state.panels;
+    if (!sameSamples) this.hovered = -1;
+    if (before?.values && state.values && !sameNumbers(before.values, state.values)) this.outdated = false;
+    this.chosen = this.readChosen();
+    if (!state.canMove && this.mode === "move") this.setMode("rectangle");
+    this.mover.read(readMoved(this.model, state), state);
+    this.aim(sameSamples);
+    this.describe();
+    this.restyle();
+  }
+
+  matchPanels() {
+    while (this.panels.length > this.state.panels) this.panels.pop().figure.remove();
+    while (this.panels.length < this.state.panels) {
       const panel = new Panel(this.hint.id);
       this.panels.push(panel);
       this.grid.append(panel.figure);
       this.listen(panel);
     }
-    this.points = typed(this.model.get("points"), Float32Array);
-    this.state = {
-      n: specs.length ? Math.floor(this.points.length / 2 / specs.length) : 0,
-      classes: typed(this.model.get("classes"), Int32Array),
-      names: this.model.get("class_names") ?? [],
-      colorBy: this.model.get("color_by"),
-      word: this.model.get("sample_word") || "sample",
-    };
-    const { n, classes } = this.state;
-    if (classes.length !== n && this.state.colorBy === "class") this.state.colorBy = "none";
-    this.controls = [...typed(this.model.get("control_points"), Int32Array)].filter((i) => i < n);
-    this.isControl = new Uint8Array(n);
-    for (const i of this.controls) this.isControl[i] = 1;
-    if (this.hovered >= n) this.hovered = -1;
-    this.chosen = [...typed(this.model.get("selection"), Int32Array)].filter((i) => i < n);
-    this.readPanels();
-    this.restyle();
+  }
+
+  readChosen() {
+    return [...typed(this.model.get("selection"), Int32Array)].filter((i) => i < this.state.n);
   }
 
   readSelection() {
-    const { n } = this.state;
-    this.chosen = [...typed(this.model.get("selection"), Int32Array)].filter((i) => i < n);
+    this.mark(this.readChosen());
+  }
+
+  readMoved() {
+    const moved = readMoved(this.model, this.state);
+    if (this.mover.read(moved, this.state)) this.showMoved();
+  }
+
+  // Showing.
+
+  /** Which positions a panel shows, and what its caption says about them. */
+  shown(p) {
+    const { specs, points, raw, panels } = this.state;
+    const { detail = "", raw_detail: rawDetail, moved_detail: movedDetail } = specs[p];
+    const rest = (words) => (detail ? `${words}: ${detail}` : "");
+    if (this.mover.placed[p]) {
+      return { points: this.mover.placed[p], tag: "moved", detail: movedDetail ?? rest("before moving") };
+    }
+    const before = raw && this.stage === "raw" ? ofPanel(raw, p, panels) : null;
+    if (before && anyKnown(before)) {
+      return { points: before, tag: "before optimization", detail: rawDetail ?? rest("optimized") };
+    }
+    return { points: ofPanel(points, p, panels), tag: "", detail };
+  }
+
+  describe() {
+    this.panels.forEach((panel, p) => {
+      const { tag, detail } = this.shown(p);
+      panel.describe(this.state.specs[p], this.state, tag, detail);
+    });
     this.tellSelection();
-    this.drawMarks();
+  }
+
+  /** Send all panels to the positions that they should show. */
+  aim(travelling) {
+    this.panels.forEach((panel, p) => {
+      const { points } = this.shown(p);
+      if (sameNumbers(panel.cloud.points, points)) return;
+      panel.cloud.aim(points, frameOf(points), travelling && this.duration() > 0);
+    });
+    this.travel();
+  }
+
+  duration() {
+    return matchMedia("(prefers-reduced-motion: reduce)").matches ? 0 : this.state.duration;
+  }
+
+  /** Draw frame by frame until no panel travels any more. */
+  travel() {
+    if (this.ticking || !this.panels.some((panel) => panel.cloud.travelling)) return;
+    this.ticking = true;
+    requestAnimationFrame((now) => {
+      this.ticking = false;
+      if (this.signal.aborted) return;
+      for (const panel of this.panels) {
+        if (!panel.cloud.travelling) continue;
+        panel.cloud.advance(now, this.duration());
+        this.drawPanel(panel);
+      }
+      this.travel();
+    });
+  }
+
+  showMoved() {
+    this.outdated = this.mover.anyMoved;
+    this.aim(true);
+    this.describe();
+    this.drawLegend();
+    this.travel();
+    this.draw();
+  }
+
+  setStage(stage) {
+    this.stage = stage;
+    this.aim(true);
+    this.describe();
+    this.drawLegend();
+    this.say(stage === "raw" ? "positions before optimization" : "optimized positions");
+    this.draw();
+  }
+
+  setMode(mode) {
+    if (this.mover.grip) this.mover.putBack();
+    this.mode = mode;
+    this.root.classList.toggle("wb-moving", mode === "move");
+    this.hint.textContent = mode === "move" ? HINTS.move : HINTS.select;
+    this.toolbar.show(this);
   }
 
   restyle() {
+    const { state } = this;
+    const { n } = state;
     const theme = themeOf(this.root);
-    const { n } = this.state;
     const radius = n > 8000 ? 1.6 : n > 2000 ? 2.2 : n > 500 ? 2.8 : 3.6;
-    const { swatchOf, swatches } = colouring(this.state, theme);
-    const dots = swatches.map(([colour, shape]) => makeDot(colour, shape, radius, n > CRISP));
-    this.look = { theme, radius, swatchOf, swatches, dots, cross: makeCross(theme) };
+    this.look = { theme, radius, crisp: n > CRISP, ...colouring(state, theme) };
     this.drawLegend();
     this.resize(true);
   }
@@ -111,105 +196,113 @@ class Scatter {
     const width = this.root.clientWidth;
     if (!width || !this.panels.length || (!force && width === this.width)) return;
     this.width = width;
-    const count = this.panels.length;
-    const fitting = Math.floor(width / NARROWEST);
-    const columns = fitting >= count ? count : Math.max(1, Math.min(2, fitting));
-    this.grid.style.gridTemplateColumns = `repeat(${columns}, minmax(0, 1fr))`;
-    this.panels.forEach((panel, p) => {
-      const { n } = this.state;
-      panel.place(this.points.subarray(2 * p * n, 2 * (p + 1) * n), panel.plot.clientWidth);
-      panel.drawBase(this.look, this.controls);
-    });
-    this.tellSelection();
-    this.drawMarks();
+    const fitting = Math.max(1, Math.min(MOST_COLUMNS, Math.floor(width / NARROWEST)));
+    // As many rows as needed, then as few columns as fill them.
+    this.columns = Math.ceil(this.panels.length / Math.ceil(this.panels.length / fitting));
+    this.grid.style.gridTemplateColumns = `repeat(${this.columns}, minmax(0, 1fr))`;
+    const marks = makeMarks(this.look, screenRatio());
+    for (const panel of this.panels) panel.fit(panel.plot.clientWidth, marks);
+    this.draw();
   }
 
-  drawMarks() {
-    for (const panel of this.panels) {
-      if (panel.size) panel.drawMarks(this.look, this.chosen, this.isControl);
-    }
-    this.drawTop();
+  draw() {
+    for (const panel of this.panels) this.drawPanel(panel);
   }
 
-  drawTop() {
-    for (const panel of this.panels) {
-      if (!panel.size) continue;
-      const outline = this.drag?.panel === panel && this.drag.moved ? this.outline() : null;
-      panel.drawTop(this.look, this.hovered, outline);
-    }
+  drawPanel(panel) {
+    if (!panel.raster) return;
+    panel.drawBase(this.look.swatchOf[this.panels.indexOf(panel)], this.state.controls);
+    panel.drawMarks(this.chosen, this.state.isControl);
+    this.drawTop(panel);
+  }
+
+  drawTop(panel) {
+    if (!panel.raster) return;
+    const outline = this.tool?.outline(panel) ?? null;
+    panel.drawTop(this.look, this.hovered, this.mover.heldIn(panel), outline);
   }
 
   drawLegend() {
-    const { names, classes, colorBy, word } = this.state;
-    const items = [];
-    if (colorBy === "class") {
-      names.forEach((name, group) => {
-        const mark = this.legendMark(makeDot(...this.look.swatches[group], 4));
-        const item = element("button", { type: "button", title: `Select all of class ${name}` }, [mark, name]);
-        item.addEventListener("click", ({ shiftKey }) => {
-          const members = [];
-          classes.forEach((c, i) => c === group && members.push(i));
-          this.select(shiftKey ? [...this.chosen, ...members] : members);
-        }, { signal: this.signal });
-        items.push(item);
-      });
+    showLegend(this.legend, legendEntries(this.state, this.look, screenRatio()), (group, adding) => {
+      const members = [...this.state.classes.keys()].filter((i) => this.state.classes[i] === group);
+      this.select(adding ? [...this.chosen, ...members] : members);
+    });
+    const { colorBy, raw } = this.state;
+    const before = (raw && this.stage === "raw") || this.outdated;
+    if (colorBy === "value" && before) {
+      this.legend.append(element("span", { class: "wb-hint", text: "values of the positions before this change" }));
     }
-    if (colorBy === "time") {
-      const stops = TIME_STOPS[this.look.theme.name].map((c) => `rgb(${c.join(" ")})`);
-      const ramp = element("i", { style: `background: linear-gradient(to right, ${stops.join(", ")})` });
-      items.push(element("span", { class: "wb-ramp" }, [`first ${word}`, ramp, "last"]));
-    }
-    if (this.controls.length) {
-      const text = `control point (${this.controls.length})`;
-      items.push(element("span", { class: "wb-mark" }, [this.legendMark(this.look.cross), text]));
-    }
-    this.legend.replaceChildren(...items);
   }
 
-  /** Show a mark in the legend as it is in the panels. */
-  legendMark(sprite) {
-    const canvas = element("canvas", { "aria-hidden": "true", style: "width: 14px; height: 14px" });
-    const context = fitCanvas(canvas, 14, 14);
-    const raster = new Raster(context);
-    raster.stamp(raster.fit(sprite), raster.place(7, 7));
-    context.putImageData(raster.image, 0, 0);
-    return canvas;
+  /** Say something to a screen reader. */
+  say(text) {
+    this.live.textContent = text;
+  }
+
+  /** Write a sentence above the panels. */
+  note(text) {
+    this.remark.textContent = text;
   }
 
   // Selecting and hovering.
 
-  select(samples) {
-    this.chosen = [...new Set(samples)].sort((a, b) => a - b);
+  /** Mark samples as selected, without telling Python yet. */
+  mark(samples) {
+    this.chosen = samples;
     this.tellSelection();
-    this.live.textContent = this.count.textContent || "selection cleared";
-    this.drawMarks();
+    for (const panel of this.panels) {
+      if (!panel.raster) continue;
+      panel.drawMarks(this.chosen, this.state.isControl);
+      this.drawTop(panel);
+    }
+  }
+
+  select(samples) {
+    this.mark([...new Set(samples)].sort((a, b) => a - b));
+    this.say(this.toolbar.count.textContent || "selection cleared");
     this.model.set("selection", new DataView(Int32Array.from(this.chosen).buffer));
     this.model.save_changes();
   }
 
-  tellSelection() {
-    const { n, word } = this.state;
-    const count = this.chosen.length;
-    this.root.classList.toggle("wb-dimmed", count > 0);
-    this.clearing.disabled = count === 0;
-    this.count.textContent = count ? `${count} of ${n} ${word}s selected` : "";
+  toggle(sample) {
+    if (sample < 0) return;
+    const others = this.chosen.filter((i) => i !== sample);
+    this.select(others.length < this.chosen.length ? others : [...others, sample]);
   }
 
-  hover(sample, spoken = false) {
+  tellSelection() {
+    this.root.classList.toggle("wb-dimmed", this.chosen.length > 0);
+    this.toolbar.show(this);
+  }
+
+  hover(sample, panel, spoken = false) {
+    const name = sample < 0 ? "" : this.name(sample, panel);
+    this.toolbar.hovered.textContent = name;
+    if (spoken) this.say(name);
     if (sample === this.hovered) return;
     this.hovered = sample;
-    this.hoverText.textContent = sample < 0 ? "" : this.name(sample);
-    if (spoken) this.live.textContent = this.name(sample);
     announceHover(this.model.get("channel"), sample);
-    this.drawTop();
+    this.panels.forEach((each) => this.drawTop(each));
   }
 
-  name(sample) {
-    const { classes, names, word } = this.state;
+  /** Show the sample that is hovered in another view. */
+  follow(sample) {
+    if (sample === this.hovered || sample >= this.state.n) return;
+    this.hovered = sample;
+    this.toolbar.hovered.textContent = sample < 0 ? "" : this.name(sample);
+    this.panels.forEach((panel) => this.drawTop(panel));
+  }
+
+  name(sample, panel) {
+    const { n, classes, names, word, isControl, values, colorBy, valueName } = this.state;
+    const value = values?.[this.panels.indexOf(panel) * n + sample];
     const parts = [`${word} ${sample}`, names[classes[sample]]];
-    if (this.isControl[sample]) parts.push("control point");
+    if (colorBy === "value" && panel) parts.push(`${valueName} ${Number.isFinite(value) ? brief(value) : "unknown"}`);
+    if (isControl[sample]) parts.push("control point");
     return parts.filter(Boolean).join(" · ");
   }
+
+  // Mouse and keyboard.
 
   listen(panel) {
     const on = (type, act) => panel.plot.addEventListener(type, act, { signal: this.signal });
@@ -220,18 +313,31 @@ class Scatter {
     on("pointerdown", (event) => {
       if (event.button !== 0) return;
       this.capture(panel, event.pointerId);
-      const before = event.shiftKey ? this.chosen : [];
-      this.drag = { panel, path: [at(event)], moved: false, before, kept: this.chosen };
+      this.tool = this.mode === "move" ? this.mover : this.brush;
+      this.tool.press(panel, at(event), event);
     });
     on("pointermove", (event) => {
       const [x, y] = at(event);
-      if (this.drag?.panel === panel) this.brush(x, y);
-      else this.hover(panel.nearest(x, y));
+      if (this.tool?.panel === panel) this.tool.move([x, y]);
+      else if (!this.mover.grip) this.hover(this.under(panel, x, y), panel);
     });
-    on("pointerup", (event) => this.release(panel, event));
+    on("pointerup", (event) => {
+      const { tool } = this;
+      if (tool?.panel !== panel) return;
+      this.tool = null;
+      tool.release(event);
+      this.drawTop(panel);
+    });
     on("pointercancel", () => this.abandon());
-    on("pointerleave", () => !this.drag && this.hover(-1));
-    on("keydown", (event) => this.key(event));
+    on("pointerleave", () => !this.tool && !this.mover.grip && this.hover(-1, panel));
+    on("blur", () => this.mover.grip && !this.tool && this.mover.drop());
+    on("keydown", (event) => this.key(event, panel));
+  }
+
+  /** The sample under the mouse; in the mode that moves them, a control point before others. */
+  under(panel, x, y) {
+    const control = this.mode === "move" ? panel.cloud.nearest(x, y, this.state.controls) : -1;
+    return control < 0 ? panel.cloud.nearest(x, y) : control;
   }
 
   capture(panel, pointer) {
@@ -243,65 +349,31 @@ class Scatter {
     }
   }
 
-  brush(x, y) {
-    const { path, panel } = this.drag;
-    path.push([x, y]);
-    this.drag.moved ||= Math.hypot(x - path[0][0], y - path[0][1]) >= CLICK;
-    if (!this.drag.moved) return;
-    const { before } = this.drag;
-    const lasso = this.mode === "lasso";
-    const found = lasso ? panel.within(path) : panel.withinBox(path[0], [x, y]);
-    this.chosen = before.length ? [...new Set([...before, ...found])] : found;
-    this.tellSelection();
-    this.drawMarks();
-  }
-
-  outline() {
-    const { path } = this.drag;
-    if (this.mode === "lasso") return path;
-    const [[x0, y0], [x1, y1]] = [path[0], path.at(-1)];
-    return [[x0, y0], [x1, y0], [x1, y1], [x0, y1]];
-  }
-
-  release(panel, event) {
-    const drag = this.drag;
-    if (drag?.panel !== panel) return;
-    this.drag = null;
-    if (drag.moved) return this.select(this.chosen);
-    const sample = panel.nearest(...drag.path[0]);
-    if (event.shiftKey) this.toggle(sample);
-    else this.select(sample < 0 ? [] : [sample]);
-  }
-
   abandon() {
-    if (!this.drag) return;
-    this.chosen = this.drag.kept;
-    this.drag = null;
-    this.tellSelection();
-    this.drawMarks();
+    const tool = this.tool ?? (this.mover.grip ? this.mover : null);
+    this.tool = null;
+    if (tool?.panel || tool?.grip) tool.abandon();
   }
 
-  toggle(sample) {
-    if (sample < 0) return;
-    const others = this.chosen.filter((i) => i !== sample);
-    this.select(others.length < this.chosen.length ? others : [...others, sample]);
-  }
-
-  key(event) {
-    const { n } = this.state;
-    const steps = { ArrowRight: 1, ArrowLeft: -1, ArrowUp: 10, ArrowDown: -10 };
-    const ends = { Home: 0, End: n - 1 };
-    if (event.key === "Escape") {
-      if (this.drag) this.abandon();
-      else this.select([]);
-    } else if (event.key === "Enter" || event.key === " ") this.toggle(this.hovered);
-    else if (event.key in steps || event.key in ends) {
-      const next = ends[event.key] ?? (this.hovered < 0 ? 0 : this.hovered + steps[event.key]);
-      if (n > 0) this.hover(Math.max(0, Math.min(n - 1, next)), true);
-    } else return;
+  key(event, panel) {
+    const used = this.mode === "move" && !this.brush.panel
+      ? this.mover.key(event, panel) || this.selectingKey(event, panel)
+      : this.selectingKey(event, panel);
+    if (!used) return;
     event.preventDefault();
     // JupyterLab would take Enter, Escape and the arrows as commands to its cells.
     event.stopPropagation();
+  }
+
+  selectingKey({ key }, panel) {
+    const next = stepped(key, this.hovered, this.state.n);
+    if (key === "Escape") {
+      if (this.tool) this.abandon();
+      else this.select([]);
+    } else if (key === "Enter" || key === " ") this.toggle(this.hovered);
+    else if (next !== null) this.hover(next, panel, true);
+    else return ["Home", "End", "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"].includes(key);
+    return true;
   }
 }
 
