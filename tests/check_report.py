@@ -38,7 +38,7 @@ _ACCESSIBILITY = """
     if (next > level + 1) complaints.push(`heading "${heading.textContent.trim()}" skips a level`);
     level = next;
   }
-  for (const image of document.querySelectorAll("img, [role=img]")) {
+  for (const image of document.querySelectorAll("img, [role=img], .plot")) {
     const text = image.getAttribute("alt") ?? image.getAttribute("aria-label") ?? "";
     if (text.trim().length < 20) complaints.push(`a figure has hardly a text: "${text}"`);
   }

@@ -14,6 +14,9 @@ import typer
 from workbench.errors import WorkbenchError
 from workbench.resources import bundled
 
+#: Where JupyterLab begins: the notebook that leads to all others.
+_START = "/lab/tree/start.ipynb"
+
 
 def lab(
     jupyter_options: Annotated[
@@ -23,10 +26,10 @@ def lab(
         Path, typer.Option(help="Where to put the notebooks, if the package was installed.")
     ] = Path("workbench-notebooks"),
 ) -> int:
-    """Open the notebooks in JupyterLab, reachable from this machine only."""
+    """Open JupyterLab on a start page, reachable from this machine only."""
     command = [sys.executable, "-m", "jupyterlab", "--ServerApp.ip=127.0.0.1"]
-    command += ["--notebook-dir", str(_notebooks(folder)), *(jupyter_options or [])]
-    return _run(command)
+    command += ["--notebook-dir", str(_notebooks(folder)), f"--LabApp.default_url={_START}"]
+    return _run([*command, *(jupyter_options or [])])
 
 
 def app(
@@ -37,10 +40,10 @@ def app(
     """Serve the dashboards without code, reachable from this machine only, with a token."""
     if find_spec("voila") is None:
         raise WorkbenchError("Voila is not installed: pip install 'workbench[app]'")
-    dashboard = bundled("notebooks") / "compare_projections.ipynb"
-    command = [sys.executable, "-m", "voila", str(dashboard)]
-    command += ["--Voila.ip=127.0.0.1", "--Voila.auto_token=True", *(voila_options or [])]
-    return _run(command)
+    from workbench.cli.dashboard_server import serve_dashboards
+
+    serve_dashboards(voila_options or [])
+    return 0
 
 
 def _run(command: list[str]) -> int:
@@ -56,10 +59,25 @@ def _notebooks(folder: Path) -> Path:
     source = bundled("notebooks")
     if source.parent.joinpath("pyproject.toml").is_file():
         return source
-    for notebook in source.glob("*.ipynb"):
-        target = folder / notebook.name
-        if not target.exists():
-            folder.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(notebook, target)
-    typer.echo(f"workbench: notebooks are in {folder}", err=True)
+    added, kept = _add_missing(source, folder)
+    text = f"workbench: notebooks are in {folder}"
+    if added:
+        text += f", {added} added"
+    if kept:
+        text += f", {kept} kept that differ from those of this version"
+    typer.echo(text, err=True)
     return folder
+
+
+def _add_missing(source: Path, folder: Path) -> tuple[int, int]:
+    """Copy notebooks that are not there; count those copied, and those there that differ."""
+    added = kept = 0
+    for notebook in sorted(source.rglob("*.ipynb")):
+        target = folder / notebook.relative_to(source)
+        if not target.exists():
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(notebook, target)
+            added += 1
+        elif target.read_bytes() != notebook.read_bytes():
+            kept += 1
+    return added, kept

@@ -7,7 +7,11 @@ const config = { responsive: true, displaylogo: false, showSendToCloud: false };
 window.showFigure = (name, figure) => {
   const plot = waiting.get(name);
   waiting.delete(name);
-  if (plot) Plotly.newPlot(plot, figure.data, figure.layout, config);
+  if (plot) Plotly.newPlot(plot, figure.data, figure.layout, config).then(describeOnce);
+};
+// The figure's description says it in words; its tick labels, read one by one, would not.
+const describeOnce = (plot) => {
+  for (const drawing of plot.querySelectorAll(".main-svg")) drawing.ariaHidden = "true";
 };
 window.addEventListener("DOMContentLoaded", () => {
   const plots = [...document.querySelectorAll(".plot")];

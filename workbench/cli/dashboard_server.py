@@ -1,0 +1,110 @@
+"""The dashboards as pages: Voila with an index, and nothing from the network."""
+
+from __future__ import annotations
+
+import shutil
+import tempfile
+import webbrowser
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import nbformat
+from voila.app import Voila
+
+from workbench.resources import bundled
+
+#: Notebooks that are dashboards, in the order of the index.
+DASHBOARDS = ("compare_projections",)
+
+_TEMPLATES = Path(__file__).with_name("templates")
+
+
+@dataclass(frozen=True)
+class Dashboard:
+    """A dashboard as the index shows it.
+
+    Attributes
+    ----------
+    file : str
+        Name of its notebook's file.
+    title, summary : str
+        Heading and first two sentences of its notebook.
+    """
+
+    file: str
+    title: str
+    summary: str
+
+
+def describe_dashboard(path: Path) -> Dashboard:
+    """Read the heading and the first two sentences of a dashboard's notebook.
+
+    Parameters
+    ----------
+    path : Path
+        A notebook that begins with a heading and a paragraph of text.
+
+    Examples
+    --------
+    >>> path = bundled("notebooks") / "compare_projections.ipynb"
+    >>> describe_dashboard(path).title
+    'Compare projections'
+    """
+    heading, text = nbformat.read(path, as_version=4).cells[0].source.split("\n\n")[:2]
+    words = " ".join(text.split()).replace("*", "")
+    sentences = words.split(". ")[:2]
+    return Dashboard(path.name, heading.lstrip("# "), ". ".join(sentences).rstrip(".") + ".")
+
+
+class DashboardServer(Voila):
+    """Voila that shows an index of dashboards and loads nothing from the network."""
+
+    def setup_template_dirs(self) -> None:
+        """Let our templates come before Voila's."""
+        super().setup_template_dirs()
+        self.template_paths = [str(_TEMPLATES), *self.template_paths]
+
+    def init_settings(self) -> dict[str, Any]:
+        """Tell the index what there is."""
+        settings: dict[str, Any] = super().init_settings()
+        names = sorted(Path(self.root_dir).glob("*.ipynb"), key=_place)
+        settings["voila_jinja2_env"].globals.update(
+            dashboards=[describe_dashboard(path) for path in names],
+            version=version("workbench"),
+        )
+        return settings
+
+    def launch_browser(self) -> None:
+        """Open the address with its token; Voila's own opening ends at the login page."""
+        webbrowser.open(self.display_url)
+
+
+def serve_dashboards(options: list[str]) -> None:
+    """Serve the dashboards until interrupted.
+
+    Parameters
+    ----------
+    options : list of str
+        Options for Voila, which come after ours.
+    """
+    with tempfile.TemporaryDirectory(prefix="workbench-app-") as folder:
+        # A folder of their own, so that no other notebook can be run by its address.
+        for name in DASHBOARDS:
+            shutil.copy(bundled("notebooks") / f"{name}.ipynb", folder)
+        DashboardServer.launch_instance(
+            [
+                folder,
+                "--Voila.ip=127.0.0.1",
+                "--Voila.auto_token=True",
+                "--VoilaConfiguration.classic_tree=True",
+                # Another template would bring its links to the network back.
+                "--VoilaConfiguration.allow_template_override=NO",
+                *options,
+            ]
+        )
+
+
+def _place(path: Path) -> int:
+    return DASHBOARDS.index(path.stem)
