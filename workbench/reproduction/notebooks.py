@@ -9,21 +9,18 @@ import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 from typing import Any
 
+from workbench.reproduction.kernels import CAN_FORK, PROVISIONER, forked_kernels
 from workbench.reproduction.outputs import write_outcome
 
 _ANSI = re.compile(r"\x1b\[[0-9;]*[A-Za-z]")
 _TRACEBACK_LINES = 25
 
-#: Starts a kernel in which showing a plotly figure does not import, by way of nbformat and
-#: jsonschema, a grammar of internationalised addresses, which takes 2.4 s to compile.
-_START_KERNEL = (
-    "import sys; sys.modules['rfc3987_syntax'] = None; "
-    "from ipykernel.kernelapp import launch_new_instance; launch_new_instance()"
-)
+#: Starts a kernel by itself.
+_START_KERNEL = "import sys, workbench.reproduction.kernels as k; k.run_kernel(sys.argv[1:])"
 
 
 def run_notebook(
@@ -95,8 +92,12 @@ def this_interpreter() -> Iterator[None]:
         kernel.mkdir(parents=True)
         # The kernel listens on the loopback only; its notice about that is not for our readers.
         options = ["-f", "{connection_file}", "--IPKernelApp.log_level=ERROR"]
-        launch = [sys.executable, "-c", _START_KERNEL, *options]
-        specification = {"argv": launch, "display_name": "Python 3", "language": "python"}
+        specification: dict[str, Any] = {"display_name": "Python 3", "language": "python"}
+        if CAN_FORK:
+            specification["argv"] = options
+            specification["metadata"] = {"kernel_provisioner": {"provisioner_name": PROVISIONER}}
+        else:
+            specification["argv"] = [sys.executable, "-c", _START_KERNEL, *options]
         (kernel / "kernel.json").write_text(json.dumps(specification), encoding="utf-8")
         changes = {
             "JUPYTER_PATH": os.pathsep.join(
@@ -109,7 +110,8 @@ def this_interpreter() -> Iterator[None]:
         before = {name: os.environ.get(name) for name in changes}
         os.environ.update(changes)
         try:
-            yield
+            with forked_kernels() if CAN_FORK else nullcontext():
+                yield
         finally:
             for name, value in before.items():
                 if value is None:
