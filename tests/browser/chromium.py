@@ -18,7 +18,7 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-_LOCAL = {"data", "blob", "about"}
+_LOCAL = {"data", "blob", "about", "file"}
 
 
 def chromium_path() -> str | None:

@@ -10,7 +10,7 @@ import plotly.graph_objects as go
 import pytest
 
 from workbench.widgets import FigureView
-from workbench.widgets.figure import _packed_library
+from workbench.widgets.figure import packed_library
 
 pytestmark = pytest.mark.browser
 
@@ -36,7 +36,7 @@ def line() -> FigureView:
 @pytest.fixture
 def figures(mount: Callable, visit: Any) -> Any:
     """Show two figures of different width in one page."""
-    packed = base64.b64encode(_packed_library()).decode()
+    packed = base64.b64encode(packed_library()).decode()
     visit.page.evaluate(_ANSWER, packed)
     mount(line(), width=500)
     visit.page.locator(".js-plotly-plot .main-svg").nth(2).wait_for(state="attached")
@@ -86,7 +86,7 @@ def test_a_figure_without_an_answer_does_not_disable_the_next(
         visit.page.get_by_text("The figure cannot be drawn").wait_for()
     if fault == "closed":
         visit.page.evaluate("mounted[0].end()")
-    visit.page.evaluate(_ANSWER, base64.b64encode(_packed_library()).decode())
+    visit.page.evaluate(_ANSWER, base64.b64encode(packed_library()).decode())
     mount(line(), width=350)
     drawn = "(i) => mounted[i].el.querySelectorAll('.main-svg').length > 0"
     visit.page.wait_for_function(drawn, arg=1)

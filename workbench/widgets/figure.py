@@ -41,11 +41,12 @@ class FigureView(anywidget.AnyWidget):
 
 def _send_library(view: FigureView, content: dict[str, Any], _: Any) -> None:
     if content.get("want") == "plotly.js":
-        view.send({"kind": "plotly.js"}, buffers=[_packed_library()])
+        view.send({"kind": "plotly.js"}, buffers=[packed_library()])
 
 
 @cache
-def _packed_library() -> bytes:
+def packed_library() -> bytes:
+    """Give plotly.js, packed by gzip."""
     from plotly.offline import get_plotlyjs
 
     return gzip.compress(get_plotlyjs().encode(), compresslevel=1)

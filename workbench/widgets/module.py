@@ -30,5 +30,10 @@ def style_sheet() -> str:
     return _read("widgets.css")
 
 
+def page_parts() -> tuple[str, str]:
+    """Read the style sheet and the script of a page with exported views."""
+    return _read("page.css"), _read("page.js")
+
+
 def _read(name: str) -> str:
     return (_FOLDER / name).read_text(encoding="utf-8")
