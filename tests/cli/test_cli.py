@@ -7,11 +7,13 @@ import os
 import re
 import subprocess
 import sys
+from pathlib import Path
 
 import nbformat
 import pandas as pd
 import pytest
 
+from tests.browser.chromium import chromium_path
 from tests.conftest import find_clip
 from workbench.datasets import load_space
 from workbench.optimization import VISUALIZATION_OPTIMIZER
@@ -146,6 +148,32 @@ def test_keyframes_and_compact_on_a_bundled_clip(run):
     assert values["evaluations"] == 0
 
 
+def test_keyframes_are_drawn_as_one_picture(run, tmp_path):
+    """The SVG has a body for each of the frames that are printed, and the PNG is a picture."""
+    words = ["keyframes", "cmu/01_01-jump", "--count", 4, "--json", "--thumbnail"]
+    status, out, _ = run(*words, tmp_path / "jump.svg")
+    frames = json.loads(out)["frames"]
+    assert status == 0
+    svg = (tmp_path / "jump.svg").read_text()
+    assert re.findall(r"<title>frame (\d+)</title>", svg) == [str(frame) for frame in frames]
+    if chromium_path() is None:
+        assert os.environ.get("CI") != "true", "no chromium in CI"
+        pytest.skip("no chromium on this machine: the PNG cannot be drawn")
+    assert run(*words, tmp_path / "jump.png")[0] == 0
+    assert (tmp_path / "jump.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_picture_without_a_browser_is_refused_in_one_line(run, tmp_path, monkeypatch):
+    """Without a browser the line says which kind of file needs none, and no file is left."""
+    monkeypatch.setenv("PATH", str(Path(sys.executable).parent))
+    monkeypatch.setenv("BROWSER_PATH", "no-browser")
+    words = ["keyframes", "cmu/01_01-jump", "--count", 4, "--thumbnail", tmp_path / "jump.png"]
+    status, out, err = run(*words)
+    assert (status, out, err.count("\n")) == (2, "", 1)
+    assert "An .svg file needs no browser" in err
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_saliency_counts_by_its_own_rule(run):
     """Without count and ratio it gives what its clusters give; with one of them, that many."""
     words = ["keyframes", "cmu/01_01-jump", "--selector", "saliency", "--json"]
@@ -249,6 +277,11 @@ def test_the_main_result_of_the_thesis(run):
         ),
         (["keyframes", "cmu/01_01", "--count", "1"], "--count: got 1, want at least 2"),
         (["keyframes", "uci/iris"], "want a motion"),
+        (["keyframes", "cmu/01_01", "--thumbnail", "x.gif"], "want a name ending in .svg or .png"),
+        (
+            ["keyframes", "cmu/01_01", "--thumbnail", "none/x.svg"],
+            "--thumbnail: there is no folder",
+        ),
         (["datasets", "check", "uci/none"], "uci/none"),
         (["reproduce", "costa2018:fig9.9"], "costa2018:fig9.9"),
         (["reproduce", "--profile", "huge"], "huge"),

@@ -33,14 +33,14 @@ def load_motion(clip: str) -> PoseSpace:
     return space
 
 
-def check_folder(out: Path | None) -> None:
+def check_folder(out: Path | None, option: str = "--out") -> None:
     """Refuse an output file that has no place, before anything is computed."""
     if out is None:
         return
     if out.is_dir():
-        raise WorkbenchError(f"--out: got the folder {str(out)!r}, want the name of a file")
+        raise WorkbenchError(f"{option}: got the folder {str(out)!r}, want the name of a file")
     if not out.resolve().parent.is_dir():
-        raise WorkbenchError(f"--out: there is no folder {str(out.resolve().parent)!r}")
+        raise WorkbenchError(f"{option}: there is no folder {str(out.resolve().parent)!r}")
 
 
 def write(out: Path, content: bytes) -> None:

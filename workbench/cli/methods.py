@@ -16,6 +16,7 @@ from workbench.projection import projectors
 from workbench.selection import selectors
 
 if TYPE_CHECKING:
+    from workbench.mocap.motion import Motion
     from workbench.results import SpatialResult
 
 
@@ -77,17 +78,21 @@ def keyframes(
     ratio: options.Ratio = None,
     keep: options.Keep = None,
     seed: options.Seed = 0,
+    thumbnail: options.Thumbnail = None,
     json: options.Json = False,
 ) -> None:
-    """Select keyframes of a motion."""
+    """Select keyframes of a motion, and draw them as one picture if wanted."""
     options.check_name(selectors, selector)
     options.check_amount(count, ratio, keep)
+    draw = _picture_writer(thumbnail)
 
     from workbench.schemes import choose_control_points
 
     space = load_motion(clip)
     amount = options.amount(selector, count, ratio, keep, len(space))
     frames = choose_control_points(space, selector, random_state=seed, **amount)
+    if draw is not None:
+        draw(space.motion, frames)
     options.report({"frames": frames.tolist()}, json)
 
 
@@ -104,6 +109,39 @@ def _table_writer(out: Path | None) -> Callable[[Any], None] | None:
         raise WorkbenchError(f"--out: got {str(out)!r}, want a name ending in .csv or .parquet")
     check_folder(out)
     return lambda table: write(out, content(table))
+
+
+def _picture_writer(path: Path | None) -> Callable[[Motion, Any], None] | None:
+    """Choose how to draw keyframes, before anything is computed."""
+    if path is None:
+        return None
+    writers = {".svg": _write_svg, ".png": _write_png}
+    writer = writers.get(path.suffix.lower())
+    if writer is None:
+        raise WorkbenchError(f"--thumbnail: got {str(path)!r}, want a name ending in .svg or .png")
+    check_folder(path, "--thumbnail")
+    return lambda motion, frames: writer(path, motion, frames)
+
+
+def _write_svg(path: Path, motion: Motion, frames: Any) -> None:
+    from workbench.figures.thumbnails import thumbnail_svg
+
+    write(path, thumbnail_svg(motion, frames).encode())
+
+
+def _write_png(path: Path, motion: Motion, frames: Any) -> None:
+    from tempfile import TemporaryDirectory
+
+    from workbench.figures.thumbnails import thumbnail
+    from workbench.reproduction.images import write_pngs
+
+    with TemporaryDirectory() as folder:
+        figure = Path(folder) / "thumbnail.json"
+        figure.write_text(thumbnail(motion, frames).to_json(), encoding="utf-8")
+        complaint = write_pngs([figure])
+        if complaint:
+            raise WorkbenchError(f"--thumbnail: {complaint} An .svg file needs no browser.")
+        write(path, figure.with_suffix(".png").read_bytes())
 
 
 def _embedding_table(result: SpatialResult) -> Any:

@@ -39,6 +39,10 @@ Ratio = Annotated[
 ]
 Seed = Annotated[int, typer.Option(min=0, max=2**32 - 1, help="Seed of everything random.")]
 Out = Annotated[Path | None, typer.Option(help="File to write the result to.")]
+Thumbnail = Annotated[
+    Path | None,
+    typer.Option(help="File for a picture of the keyframes, ending in .svg or .png."),
+]
 Keep = Annotated[
     list[int] | None,
     typer.Option(
