@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import copy
 import inspect
+import textwrap
 import traceback
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal
+
+import numpy as np
 
 from workbench.teaching.answers import Answer, UnreadableAnswerError
 
@@ -95,7 +98,7 @@ class Question(ABC):
     @property
     def solution_code(self) -> str:
         """The solution as Python code."""
-        return inspect.cleandoc(inspect.getsource(self.solution))
+        return textwrap.dedent(inspect.getsource(self.solution)).strip()
 
 
 @dataclass(frozen=True)
@@ -138,12 +141,13 @@ class Exercise(Question):
             read = self.kind.read(answer)
         except UnreadableAnswerError as error:
             return Verdict("unreadable", str(error))
-        if self.kind.same(read, self.kind.read(self.solve(given))):
+
+        def fits(make: Callable[..., Any]) -> bool:
+            return self.kind.same(read, self.kind.read(make(**given)))
+
+        if fits(self.solution):
             return Verdict("solved", self.praise)
-        for mistake in self.mistakes:
-            if self.kind.same(read, self.kind.read(mistake.answer(**given))):
-                return Verdict("wrong", mistake.hint)
-        return Verdict("wrong", self.hint)
+        return Verdict("wrong", _hint_for(self.mistakes, fits) or self.hint)
 
     def solve(self, given: Mapping[str, Any]) -> Any:
         """Make the right answer."""
@@ -186,24 +190,20 @@ class FunctionExercise(Question):
             read = [self.kind.read(result) for result in results]
         except UnreadableAnswerError as error:
             return Verdict("unreadable", _of_a_function(str(error)))
-        if self._fits(read, self.solution, cases):
+
+        def fits(function: Callable[..., Any]) -> bool:
+            return all(
+                self.kind.same(one, self.kind.read(function(*case)))
+                for one, case in zip(read, cases, strict=True)
+            )
+
+        if fits(self.solution):
             return Verdict("solved", self.praise)
-        for mistake in self.mistakes:
-            if self._fits(read, mistake.answer, cases):
-                return Verdict("wrong", mistake.hint)
-        return Verdict("wrong", self.hint)
+        return Verdict("wrong", _hint_for(self.mistakes, fits) or self.hint)
 
     def solve(self, given: Mapping[str, Any]) -> Any:  # noqa: ARG002 - the same for all data
         """Give the function."""
         return self.solution
-
-    def _fits(
-        self, read: list[Any], function: Callable[..., Any], cases: Sequence[tuple[Any, ...]]
-    ) -> bool:
-        return all(
-            self.kind.same(one, self.kind.read(function(*case)))
-            for one, case in zip(read, cases, strict=True)
-        )
 
 
 @dataclass(frozen=True)
@@ -236,6 +236,20 @@ class OpenExercise(Question):
     def solve(self, given: Mapping[str, Any]) -> Any:
         """Make one right answer."""
         return self.solution(**given)
+
+
+def _hint_for(
+    mistakes: Sequence[Mistake], fits: Callable[[Callable[..., Any]], bool]
+) -> str | None:
+    """Find the first mistake that makes the same answer."""
+    for mistake in mistakes:
+        try:
+            with np.errstate(all="ignore"):
+                if fits(mistake.answer):
+                    return mistake.hint
+        except (ArithmeticError, UnreadableAnswerError):
+            continue  # these data do not let one make that mistake
+    return None
 
 
 def _call(function: Callable[..., Any], case: tuple[Any, ...]) -> Any:

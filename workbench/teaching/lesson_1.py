@@ -163,7 +163,7 @@ EXERCISES: Sequence[Question] = (
         "data, and assign its index to `answer`.",
         solution=farthest_neighbor,
         praise="Yes. In the plane it seems to have a close relative, and it has none there: a "
-        "*false* neighbour.",
+        "false neighbour.",
         hint="Find each sample's nearest other one in the plane (`argmin` along axis 1, with the "
         "diagonal out of the way). Then look up the distance of each such pair in the data.",
         kind=Samples(),
@@ -182,7 +182,7 @@ EXERCISES: Sequence[Question] = (
             Mistake(
                 _roles_exchanged,
                 "You looked for neighbours in the data and measured in the plane: this one is "
-                "*missed*. Do it the other way round.",
+                "a missed neighbour. Do it the other way round.",
             ),
             Mistake(_closest_neighbor, "This is the smallest distance. Look for the largest."),
         ),
