@@ -23,3 +23,14 @@ def test_the_estimate_follows_the_work_done(capsys: pytest.CaptureFixture, monke
     assert "1 of 8 runs, about 1 min 0 s left (uci/yeast)" in second
     assert last.startswith("Grid: 8 of 8 runs (uci/iris)")
     assert last.endswith("\n")
+
+
+def test_what_ends_a_grid_stands_on_a_line_of_its_own(capsys: pytest.CaptureFixture):
+    """A line that waits for more is ended once; one that is complete is left as it is."""
+    with pytest.raises(KeyboardInterrupt), ProgressLine("Grid") as line:
+        line(Advance(0, 8, 0.0, "0 found finished"))
+        raise KeyboardInterrupt
+    assert capsys.readouterr().err.count("\n") == 1
+    with ProgressLine("Grid") as line:
+        line(Advance(8, 8, 1.0, "uci/iris"))
+    assert capsys.readouterr().err.count("\n") == 1

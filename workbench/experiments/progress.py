@@ -7,6 +7,7 @@ import time
 from collections import defaultdict
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Self
 
 from workbench.experiments.costs import Costs
 from workbench.experiments.runs.base import Run
@@ -117,6 +118,9 @@ class Reporter:
 class ProgressLine:
     """Print one line on stderr that is overwritten as a grid advances.
 
+    As a context manager it ends the line when the grid stops half-way, so that the reason
+    stands on a line of its own.
+
     Parameters
     ----------
     title : str
@@ -126,6 +130,16 @@ class ProgressLine:
     def __init__(self, title: str) -> None:
         self.title = title
         self._started: float | None = None
+        self._open = False
+
+    def __enter__(self) -> Self:
+        """Give itself."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """End the line if it waits for more."""
+        if self._open:
+            print(file=sys.stderr, flush=True)  # noqa: T201 - its purpose
 
     def __call__(self, advance: Advance) -> None:
         """Show how far the grid is, and from a tenth of the work on what may remain."""
@@ -138,7 +152,8 @@ class ProgressLine:
         if _ENOUGH <= advance.share < 1.0:
             left = (now - self._started) * (1 - advance.share) / advance.share
             remains = f", about {duration(left)} left"
-        end = "\n" if advance.finished == advance.total else ""
+        self._open = advance.finished < advance.total
+        end = "" if self._open else "\n"
         line = f"{self.title}: {advance.finished} of {advance.total} runs{remains} ({advance.what})"
         print(f"\r{line:<{_WIDTH}}", end=end, file=sys.stderr, flush=True)  # noqa: T201 - its purpose
 

@@ -231,8 +231,8 @@ def _execute_runs(
     runs = list(dict.fromkeys(run for mine in planned.values() for run in mine))
     if runs:
         say(f"runs that the notebooks read: {len(runs)}")
-        line = ProgressLine("  runs")
-        run_grid(runs, results, n_jobs=jobs, scheduler=scheduler, progress=line)
+        with ProgressLine("  runs") as line:
+            run_grid(runs, results, n_jobs=jobs, scheduler=scheduler, progress=line)
     return set(planned)
 
 
