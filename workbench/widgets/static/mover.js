@@ -64,10 +64,6 @@ class Mover {
     if (this.grip) this.putBack();
   }
 
-  outline() {
-    return null;
-  }
-
   // By keyboard.
 
   key({ key, shiftKey }, panel) {
@@ -77,11 +73,10 @@ class Mover {
     if (key === "Enter" || key === " ") {
       if (this.grip) this.drop();
       else if (at >= 0) this.lift(panel, controls[at]);
-    } else if (key === "Escape" && (this.grip || this.pressed)) this.abandon();
-    else if (this.grip && key in arrows) {
+    } else if (this.grip && key in arrows) {
       const way = shiftKey ? 1 : NUDGE;
       this.shift(this.grip.dx + way * arrows[key][0], this.grip.dy + way * arrows[key][1]);
-    } else if (!this.grip && stepped(key, at, controls.length) !== null) {
+    } else if (!this.grip && ARROWS.includes(key)) {
       this.view.hover(controls[stepped(key, at, controls.length)], panel, true);
     } else return false;
     return true;
@@ -153,13 +148,4 @@ class Mover {
     this.view.model.set("moved", new DataView(values.buffer));
     this.view.model.save_changes();
   }
-}
-
-/** Where a key leads in a list from a place in it (-1: none yet); null if it is no such key. */
-function stepped(key, at, length) {
-  const steps = { ArrowRight: 1, ArrowLeft: -1, ArrowUp: 10, ArrowDown: -10 };
-  const ends = { Home: 0, End: length - 1 };
-  if (!length || !(key in steps || key in ends)) return null;
-  const next = ends[key] ?? (at < 0 ? 0 : at + steps[key]);
-  return Math.max(0, Math.min(length - 1, next));
 }

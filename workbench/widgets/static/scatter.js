@@ -7,6 +7,7 @@ const DATA = [
   "points", "raw_points", "classes", "class_names", "color_by", "values", "value_name", "value_best",
   "control_points", "influence", "movable", "sample_word", "transition", "offers_html",
 ];
+const RAW = "before optimization";
 const HINTS = {
   select:
     "Drag or click to select, Shift adds, Escape clears. In a focused panel the arrow keys move " +
@@ -25,9 +26,8 @@ class Scatter {
     this.hovered = -1;
     this.mode = "rectangle";
     this.stage = "final";
-    this.tool = null; // what the mouse drags with
-    this.brush = new Brush(this);
     this.mover = new Mover(this);
+    this.input = new Input(this);
     this.build();
     this.read();
     onTraits(model, ["panels"], () => this.readPanels(), signal);
@@ -49,7 +49,7 @@ class Scatter {
     this.live = element("div", { class: "wb-live", role: "status", "aria-live": "polite" });
     const hintId = `wb-hint-${Math.random().toString(36).slice(2)}`;
     this.hint = element("p", { class: "wb-hint", id: hintId, text: HINTS.select });
-    this.root.append(this.toolbar.node, this.remark, this.grid, this.legend, this.hint, this.live);
+    this.root.append(this.toolbar.node, this.toolbar.line, this.remark, this.grid, this.legend, this.hint, this.live);
   }
 
   // Reading traits.
@@ -65,11 +65,12 @@ class Scatter {
     const before = this.state;
     const state = readState(this.model);
     this.state = state;
-    if (this.tool || this.mover.grip) this.abandon();
+    this.input.abandon();
     this.matchPanels();
     const sameSamples = before?.n === state.n && before.panels === state.panels;
     if (!sameSamples) this.hovered = -1;
-    if (before?.values && state.values && !sameNumbers(before.values, state.values)) this.outdated = false;
+    const newValues = before?.values && state.values && !sameNumbers(before.values, state.values);
+    if (newValues) this.valuesPrecedeMoving = false;
     this.chosen = this.readChosen();
     if (!state.canMove && this.mode === "move") this.setMode("rectangle");
     this.mover.read(readMoved(this.model, state), state);
@@ -84,7 +85,7 @@ class Scatter {
       const panel = new Panel(this.hint.id);
       this.panels.push(panel);
       this.grid.append(panel.figure);
-      this.listen(panel);
+      this.input.listen(panel);
     }
   }
 
@@ -113,7 +114,7 @@ class Scatter {
     }
     const before = raw && this.stage === "raw" ? ofPanel(raw, p, panels) : null;
     if (before && anyKnown(before)) {
-      return { points: before, tag: "before optimization", detail: rawDetail ?? rest("optimized") };
+      return { points: before, tag: RAW, detail: rawDetail ?? rest("optimized") };
     }
     return { points: ofPanel(points, p, panels), tag: "", detail };
   }
@@ -157,7 +158,7 @@ class Scatter {
   }
 
   showMoved() {
-    this.outdated = this.mover.anyMoved;
+    this.valuesPrecedeMoving = this.mover.anyMoved;
     this.aim(true);
     this.describe();
     this.drawLegend();
@@ -218,8 +219,7 @@ class Scatter {
 
   drawTop(panel) {
     if (!panel.raster) return;
-    const outline = this.tool?.outline(panel) ?? null;
-    panel.drawTop(this.look, this.hovered, this.mover.heldIn(panel), outline);
+    panel.drawTop(this.look, this.hovered, this.mover.heldIn(panel), this.input.outline(panel));
   }
 
   drawLegend() {
@@ -227,11 +227,13 @@ class Scatter {
       const members = [...this.state.classes.keys()].filter((i) => this.state.classes[i] === group);
       this.select(adding ? [...this.chosen, ...members] : members);
     });
-    const { colorBy, raw } = this.state;
-    const before = (raw && this.stage === "raw") || this.outdated;
-    if (colorBy === "value" && before) {
-      this.legend.append(element("span", { class: "wb-hint", text: "values of the positions before this change" }));
-    }
+    if (this.state.colorBy === "value" && this.outdated) this.legend.append(element("span", { class: "wb-hint", text: this.outdated }));
+  }
+
+  /** What the coloured values are of, if they are not of the positions shown. */
+  get outdated() {
+    if (this.stage === "raw" && this.panels.some((_, p) => this.shown(p).tag === RAW)) return "values of the optimized positions";
+    return this.valuesPrecedeMoving ? "values from before moving" : "";
   }
 
   /** Say something to a screen reader. */
@@ -300,80 +302,6 @@ class Scatter {
     if (colorBy === "value" && panel) parts.push(`${valueName} ${Number.isFinite(value) ? brief(value) : "unknown"}`);
     if (isControl[sample]) parts.push("control point");
     return parts.filter(Boolean).join(" · ");
-  }
-
-  // Mouse and keyboard.
-
-  listen(panel) {
-    const on = (type, act) => panel.plot.addEventListener(type, act, { signal: this.signal });
-    const at = (event) => {
-      const box = panel.base.getBoundingClientRect();
-      return [event.clientX - box.left, event.clientY - box.top];
-    };
-    on("pointerdown", (event) => {
-      if (event.button !== 0) return;
-      this.capture(panel, event.pointerId);
-      this.tool = this.mode === "move" ? this.mover : this.brush;
-      this.tool.press(panel, at(event), event);
-    });
-    on("pointermove", (event) => {
-      const [x, y] = at(event);
-      if (this.tool?.panel === panel) this.tool.move([x, y]);
-      else if (!this.mover.grip) this.hover(this.under(panel, x, y), panel);
-    });
-    on("pointerup", (event) => {
-      const { tool } = this;
-      if (tool?.panel !== panel) return;
-      this.tool = null;
-      tool.release(event);
-      this.drawTop(panel);
-    });
-    on("pointercancel", () => this.abandon());
-    on("pointerleave", () => !this.tool && !this.mover.grip && this.hover(-1, panel));
-    on("blur", () => this.mover.grip && !this.tool && this.mover.drop());
-    on("keydown", (event) => this.key(event, panel));
-  }
-
-  /** The sample under the mouse; in the mode that moves them, a control point before others. */
-  under(panel, x, y) {
-    const control = this.mode === "move" ? panel.cloud.nearest(x, y, this.state.controls) : -1;
-    return control < 0 ? panel.cloud.nearest(x, y) : control;
-  }
-
-  capture(panel, pointer) {
-    try {
-      panel.plot.setPointerCapture(pointer);
-    } catch (error) {
-      // A pointer that is already gone cannot be captured; the drag works without.
-      if (error.name !== "NotFoundError") throw error;
-    }
-  }
-
-  abandon() {
-    const tool = this.tool ?? (this.mover.grip ? this.mover : null);
-    this.tool = null;
-    if (tool?.panel || tool?.grip) tool.abandon();
-  }
-
-  key(event, panel) {
-    const used = this.mode === "move" && !this.brush.panel
-      ? this.mover.key(event, panel) || this.selectingKey(event, panel)
-      : this.selectingKey(event, panel);
-    if (!used) return;
-    event.preventDefault();
-    // JupyterLab would take Enter, Escape and the arrows as commands to its cells.
-    event.stopPropagation();
-  }
-
-  selectingKey({ key }, panel) {
-    const next = stepped(key, this.hovered, this.state.n);
-    if (key === "Escape") {
-      if (this.tool) this.abandon();
-      else this.select([]);
-    } else if (key === "Enter" || key === " ") this.toggle(this.hovered);
-    else if (next !== null) this.hover(next, panel, true);
-    else return ["Home", "End", "ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"].includes(key);
-    return true;
   }
 }
 

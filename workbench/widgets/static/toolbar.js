@@ -58,6 +58,9 @@ class Menu {
 
   open(shown) {
     this.list.hidden = !shown;
+    this.list.classList.remove("wb-right");
+    const room = this.node.closest(".wb").getBoundingClientRect().right;
+    if (this.list.getBoundingClientRect().right > room) this.list.classList.add("wb-right");
     this.button.setAttribute("aria-expanded", String(shown));
   }
 }
@@ -73,7 +76,7 @@ class Toolbar {
     this.stages = new Choice("Positions", STAGES, (stage) => view.setStage(stage), signal);
     this.clearing = button("Clear selection", () => view.select([]));
     this.resetting = button("Reset control points", () => {
-      this.drags.buttons.at(-1).focus(); // this button is about to go
+      this.drags.buttons.at(-1).focus(); // this button is about to be disabled
       view.mover.reset();
     });
     this.saving = new Menu("Save", signal);
@@ -83,9 +86,11 @@ class Toolbar {
     this.count = element("span", { class: "wb-count" });
     this.hovered = element("span", { class: "wb-hover" });
     const parts = [
-      this.drags.node, this.stages.node, this.clearing, this.resetting, this.saving.node, this.count, this.hovered,
+      this.drags.node, this.stages.node, this.clearing, this.resetting, this.saving.node,
     ];
     this.node = element("div", { class: "wb-bar" }, parts);
+    // A line of its own, so that nothing jumps when there is something to say.
+    this.line = element("div", { class: "wb-line" }, [this.count, this.hovered]);
     this.node.addEventListener("keydown", (event) => {
       // JupyterLab would take them as commands to its cells.
       if (["Enter", " ", "Escape"].includes(event.key)) event.stopPropagation();
@@ -96,8 +101,10 @@ class Toolbar {
     const { n, word } = state;
     this.drags.show(mode, (key) => key !== "move" || state.canMove);
     this.stages.show(stage, () => state.raw !== null && anyKnown(state.raw));
+    this.clearing.hidden = mode === "move";
     this.clearing.disabled = chosen.length === 0;
-    this.resetting.hidden = !mover.anyMoved;
+    this.resetting.hidden = mode !== "move";
+    this.resetting.disabled = !mover.anyMoved;
     this.page.hidden = !state.offersHtml;
     this.count.textContent = chosen.length ? `${chosen.length} of ${n} ${word}s selected` : "";
   }
