@@ -34,9 +34,12 @@ def iris(shared: ProjectionComparison) -> ProjectionComparison:
     controls.ratio.value = 0.1
     controls.count.value = 2
     for index, name in enumerate(("pca", "mds")):
-        controls.projector[index].value = name
-        controls.optimized[index].value = False
+        controls.choosers[index].panel = Panel(name)
+    controls.color_by.value = "class"
+    controls.back_projector.value = ""
+    controls.repeat.value = False
     shared.selection = []
+    shared.moved = {}
     return shared
 
 
@@ -66,8 +69,9 @@ def register_slow(seconds: float) -> None:
 def test_each_control_is_named_for_its_panel(iris: ProjectionComparison) -> None:
     """A screen reader, which reads one control at a time, tells the panels apart."""
     controls = iris.controls
-    assert [c.description for c in controls.projector] == [f"Projector {x}" for x in "ABCD"]
-    assert [c.description for c in controls.optimized] == [f"optimized {x}" for x in "ABCD"]
+    for letter, chooser in zip("ABCDEF", controls.choosers, strict=True):
+        parts = (chooser.projector, chooser.parameters, chooser.two_step, chooser.optimized)
+        assert all(part.description.endswith(f" {letter}") for part in parts)
 
 
 def test_panels_table_and_figure_show_the_same_results(iris: ProjectionComparison) -> None:
@@ -157,7 +161,7 @@ def test_panels_never_show_two_versions_of_a_file(
     iris.open(path)
     path.write_text("a,b\n" + "\n".join(f"{i},{i * i % 5}" for i in range(21)))
     iris.cancel()
-    iris.controls.projector[1].value = "isomap"
+    iris.controls.choosers[1].projector.value = "isomap"
     assert states(iris) == ["ready", "failed"]
     assert "the file has changed" in iris.view.scatter.panels[1]["message"]
     iris.recompute()
@@ -170,7 +174,7 @@ def test_the_selection_is_kept_with_settings_and_cleared_with_data(
 ) -> None:
     """The same samples stay selected under another projector; other data have others."""
     iris.selection = [149, 3]
-    iris.controls.projector[1].value = "lle"
+    iris.controls.choosers[1].projector.value = "lle"
     iris.controls.ratio.value = 0.2
     assert iris.selection.tolist() == [3, 149]
     iris.open("uci/wine")
@@ -186,8 +190,8 @@ def test_indices_beyond_the_data_cannot_be_selected(iris: ProjectionComparison) 
 
 def test_optimizing_lowers_the_reconstruction_error(iris: ProjectionComparison) -> None:
     """The best value in the table is then the optimized panel's."""
-    iris.controls.projector[1].value = "pca"
-    iris.controls.optimized[1].value = True
+    iris.controls.choosers[1].projector.value = "pca"
+    iris.controls.choosers[1].optimized.value = True
     assert iris.results["B"].error < iris.results["A"].error
     assert iris.view.scatter.panels[1]["title"] == "B · pca, optimized"
     row = iris.view.quality.table.value.split("reconstruction error")[1]
@@ -236,8 +240,8 @@ def test_a_projector_of_ones_own_is_offered_and_used(iris: ProjectionComparison)
 
     register_projector("first two", FirstTwo)
     iris._repr_mimebundle_()
-    assert "first two" in iris.controls.projector[0].options
-    iris.controls.projector[0].value = "first two"
+    assert "first two" in iris.controls.choosers[0].projector.options
+    iris.controls.choosers[0].projector.value = "first two"
     measured = load_space("uci/iris").samples[:, :2]
     shown = iris.results["A"].embedding
     assert np.corrcoef(shown.ravel(), (measured - measured.min(axis=0)).ravel())[0, 1] > 0.999
@@ -253,7 +257,7 @@ def test_a_failing_projector_says_so_in_its_panel_only(iris: ProjectionCompariso
 
     register_projector("broken", Broken)
     iris.recompute()
-    iris.controls.projector[1].value = "broken"
+    iris.controls.choosers[1].projector.value = "broken"
     assert states(iris) == ["ready", "failed"]
     assert iris.view.scatter.panels[1]["message"] == "RuntimeError: out of luck"
     assert list(iris.results) == ["A"]
@@ -313,7 +317,7 @@ def test_cancelling_keeps_what_is_complete_and_can_be_resumed(
     iris.recompute()
 
     async def main() -> None:
-        iris.controls.projector[1].value = "slow"
+        iris.controls.choosers[1].projector.value = "slow"
         while "projecting" not in iris.view._doing.value:
             await asyncio.sleep(0.02)
         assert iris.view.cancel.layout.visibility == "visible"
@@ -339,10 +343,10 @@ def test_another_choice_replaces_what_is_being_computed(iris: ProjectionComparis
     iris.recompute()
 
     async def main() -> None:
-        iris.controls.projector[1].value = "slow"
+        iris.controls.choosers[1].projector.value = "slow"
         while "projecting" not in iris.view._doing.value:
             await asyncio.sleep(0.02)
-        iris.controls.projector[1].value = "isomap"
+        iris.controls.choosers[1].projector.value = "isomap"
         await asyncio.wait_for(iris.finished(), 50)
 
     asyncio.run(main())
@@ -379,9 +383,9 @@ def test_any_error_is_told_in_its_place(
 def test_adding_panels_keeps_the_others(iris: ProjectionComparison) -> None:
     """The first two results are not computed again for four panels."""
     before = iris.results
-    iris.controls.projector[2].value = "lle"
-    iris.controls.optimized[3].value = False
-    iris.controls.projector[3].value = "pca"
+    iris.controls.choosers[2].projector.value = "lle"
+    iris.controls.choosers[3].optimized.value = False
+    iris.controls.choosers[3].projector.value = "pca"
     iris.controls.count.value = 4
     assert states(iris) == ["ready"] * 4
     assert iris.results["A"] is before["A"]
@@ -391,12 +395,12 @@ def test_adding_panels_keeps_the_others(iris: ProjectionComparison) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        ({"panels": ["pca"]}, "panels: got 1, want 2 to 4"),
+        ({"panels": []}, "panels: got 0, want 1 to 6"),
         ({"panels": ["pca", "pcb"]}, "'pcb', want one of pca"),
         ({"panels": ["pca", Panel("pcb", optimized=True)]}, "'pcb', want one of pca"),
         ({"ratio": 0.9}, "ratio: got 0.9"),
     ],
-    ids=["one panel", "unknown", "unknown optimized", "ratio"],
+    ids=["no panel", "unknown", "unknown optimized", "ratio"],
 )
 def test_wrong_arguments_are_refused(arguments: dict[str, Any], words: str) -> None:
     """The message names the argument and says what it may be."""

@@ -6,18 +6,24 @@ from dataclasses import replace
 
 import numpy as np
 
-from workbench.dashboards.quality_view import QualityView, preservation_figure, quality_table
-from workbench.dashboards.session import PanelResult
+from workbench.dashboards.jobs import PanelResult
+from workbench.dashboards.quality_figures import preservation_figure
+from workbench.dashboards.quality_table import quality_table
+from workbench.dashboards.quality_view import QualityView
+from workbench.quality.shepard_diagram import shepard_diagram
 from workbench.quality.summary import EmbeddingQuality
 
 
 def result(stress: float, trustworthiness: float) -> PanelResult:
     return PanelResult(
         embedding=np.zeros((3, 2)),
+        projected=None,
         control_points=np.arange(2),
         errors=np.zeros(3),
         error=0.5,
         quality=EmbeddingQuality(stress, 0.1, trustworthiness, 0.9, 0.8, 7),
+        local={},
+        shepard=shepard_diagram(1 - np.eye(3), np.eye(3)[:, :2], n_bins=2),
         k=np.array([1, 2]),
         preservation=np.array([0.4, 0.6]),
         seconds=1.0,

@@ -8,15 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from workbench.dashboards.session import (
-    MAX_SAMPLES,
-    Panel,
-    Run,
-    Session,
-    Source,
-    curve_sizes,
-    summarize,
-)
+from workbench.dashboards.jobs import Methods, Run
+from workbench.dashboards.panels import Panel
+from workbench.dashboards.session import Session, curve_sizes
+from workbench.dashboards.sources import MAX_SAMPLES, Source
+from workbench.dashboards.summaries import summarize
 from workbench.errors import DataError, WorkbenchError
 from workbench.mocap.motion import Motion
 from workbench.optimization import VISUALIZATION_OPTIMIZER
@@ -41,8 +37,8 @@ def table() -> VectorSpace:
 @pytest.mark.parametrize("optimized", [False, True], ids=["raw", "optimized"])
 def test_a_panel_shows_what_the_scheme_gives(table: VectorSpace, optimized: bool) -> None:
     """Embedding, error and quality are those of the same scheme run by hand."""
-    run = Run(Source("table", space=table, token=1), Panel("mds", optimized), 0.1, 7)
-    result = Session().run(run, projectors, report=quiet)
+    run = Run(Source("table", space=table, token=1), Panel("mds", optimized=optimized), 0.1, 7)
+    result = Session().run(run, Methods(), report=quiet)
     scheme = SpatialScheme("mds", optimizer=VISUALIZATION_OPTIMIZER if optimized else None)
     expected = scheme.run(table, ratio=0.1, random_state=7)
     np.testing.assert_array_equal(result.embedding, expected.embedding)
@@ -74,14 +70,18 @@ def test_raw_and_optimized_share_one_projection(table: VectorSpace) -> None:
     ]:
         registry = Registry("projector", {})
         registry.register("mine", factory)
-        session.run(Run(source, Panel("mine", optimized), 0.1, seed), registry, report=quiet)
+        session.run(
+            Run(source, Panel("mine", optimized=optimized), 0.1, seed),
+            Methods(registry),
+            report=quiet,
+        )
         assert len(calls) == expected
 
 
 def test_adjusted_parameters_are_told(table: VectorSpace) -> None:
     """t-SNE's perplexity does not fit 60 samples, and the panel's notes say so."""
     run = Run(Source("table", space=table, token=1), Panel("tsne"), 0.1, 0)
-    assert any("perplexity" in note for note in Session().run(run, projectors, report=quiet).notes)
+    assert any("perplexity" in note for note in Session().run(run, Methods(), report=quiet).notes)
 
 
 def test_a_projector_with_three_dimensions_is_refused(table: VectorSpace) -> None:
@@ -90,7 +90,7 @@ def test_a_projector_with_three_dimensions_is_refused(table: VectorSpace) -> Non
     registry.register("solid", lambda: projectors.create("pca", n_components=3))
     run = Run(Source("table", space=table, token=1), Panel("solid"), 0.1, 0)
     with pytest.raises(WorkbenchError, match="'solid': got 3 dimensions, want 2"):
-        Session().run(run, registry, report=quiet)
+        Session().run(run, Methods(registry), report=quiet)
 
 
 def test_too_many_samples_are_refused_before_memory_runs_out() -> None:

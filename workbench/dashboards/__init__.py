@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from workbench.dashboards.compare import ProjectionComparison, compare_projections
-    from workbench.dashboards.session import Panel
+    from workbench.dashboards.panels import Panel
 
 _HOMES = {
-    "Panel": "session",
+    "Panel": "panels",
     "ProjectionComparison": "compare",
     "compare_projections": "compare",
 }

@@ -6,13 +6,17 @@ import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
 from html import escape
+from typing import Any
 
 import ipywidgets as widgets
 import numpy as np
+from numpy.typing import NDArray
 
+from workbench.dashboards.code_cell import CodeControls
 from workbench.dashboards.controls import Controls
+from workbench.dashboards.jobs import LOCAL_MEASURES, PanelResult, Values
 from workbench.dashboards.quality_view import QualityView
-from workbench.dashboards.session import PanelResult, Summary
+from workbench.dashboards.summaries import Summary
 from workbench.mocap.sides import joint_sides
 from workbench.widgets import PoseView, SampleDetails, ScatterPanels, StatusLine
 
@@ -32,14 +36,23 @@ class PanelState:
     title : str
         What the panel shows.
     result : PanelResult or None
-        None as long as it is not there.
+        Its embedding; None as long as it is not there.
     failure : str
         Why it is not there, in plain words; empty while it is still to come.
+    measured : PanelResult or None
+        What quality is shown of: the same, or the embedding after control points were moved.
+    moved : ndarray of shape (n_control_points, 2) or None
+        Where control points were moved to, None if they were not.
+    repeated : sequence of Values
+        Quality with other seeds.
     """
 
     title: str
     result: PanelResult | None
     failure: str = ""
+    measured: PanelResult | None = None
+    moved: NDArray[np.float32] | None = None
+    repeated: Sequence[Values] = ()
 
 
 class ComparisonView:
@@ -62,16 +75,19 @@ class ComparisonView:
         The hovered row; hidden for motions.
     quality : QualityView
         Quality values.
+    code : CodeControls
+        The view as code.
     cancel, again : ipywidgets.Button
         To end a computation and to repeat it.
     """
 
     def __init__(self, controls: Controls) -> None:
         channel = f"comparison-{next(_channels)}"
-        self.scatter = ScatterPanels(channel=channel)
+        self.scatter = ScatterPanels(channel=channel, offers_html=True)
         self.pose = PoseView(channel=channel)
         self.details = SampleDetails(channel=channel)
         self.quality = QualityView()
+        self.code = CodeControls()
         self.cancel = widgets.Button(description="Cancel", icon="stop")
         self.again = widgets.Button(
             description="Compute again",
@@ -87,8 +103,9 @@ class ComparisonView:
         scatter, body = self.scatter, summary.body
         with scatter.hold_sync():
             scatter.selection = []
-            scatter.points = []
-            scatter.control_points = []
+            for name in ("moved", "influence", "points", "raw_points", "values", "control_points"):
+                setattr(scatter, name, [])
+            scatter.movable = False
             scatter.classes = summary.classes
             scatter.class_names = summary.class_names
             scatter.sample_word = "frame" if body else "sample"
@@ -106,22 +123,46 @@ class ComparisonView:
             self.details.class_names = summary.class_names
             self.details.values = summary.values
 
-    def show_panels(self, n_samples: int, states: Sequence[PanelState]) -> None:
-        """Show what the panels have so far."""
+    def show_panels(
+        self,
+        n_samples: int,
+        states: Sequence[PanelState],
+        color_by: str,
+        influence: NDArray[np.float32] | None,
+    ) -> None:
+        """Show what the panels have so far.
+
+        Parameters
+        ----------
+        n_samples : int
+            Number of samples.
+        states : sequence of PanelState
+            One for each panel.
+        color_by : str
+            What colours stand for, see :data:`workbench.dashboards.controls.COLORS`.
+        influence : ndarray of shape (n_samples, n_control_points) or None
+            How control points count; None as long as they cannot be moved.
+        """
+        scatter = self.scatter
         results = [state.result for state in states]
-        points = np.full((len(states), n_samples, 2), np.nan, dtype=np.float32)
-        for place, result in zip(points, results, strict=True):
-            if result is not None:
-                place[:] = result.embedding
-        controls = next((r.control_points for r in results if r is not None), np.empty(0, int))
-        with self.scatter.hold_sync():
-            # Sent only if they changed: a busy panel reports often, and points are many.
-            if not np.array_equal(self.scatter.points, points, equal_nan=True):
-                self.scatter.points = points
-            if not np.array_equal(self.scatter.control_points, controls):
-                self.scatter.control_points = controls
-            self.scatter.panels = [_panel(state) for state in states]
-        self.quality.show([state.title for state in states], results)
+        control = next((r.control_points for r in results if r is not None), np.empty(0, int))
+        with scatter.hold_sync():
+            # Before what has a row for each panel, whose shape is checked.
+            scatter.panels = [_panel(state) for state in states]
+            self._set("points", _points(n_samples, [r.embedding if r else None for r in results]))
+            raw = [r.projected if r else None for r in results]
+            has_raw = any(embedding is not None for embedding in raw)
+            self._set("raw_points", _points(n_samples, raw) if has_raw else np.empty(0))
+            self._set("control_points", control)
+            self._show_colors(n_samples, states, color_by)
+            self._set("influence", np.empty(0) if influence is None else influence)
+            scatter.movable = influence is not None
+            self._show_moved(len(control), states)
+        self.quality.show(
+            [state.title + " (moved)" * (state.moved is not None) for state in states],
+            [state.measured for state in states],
+            [state.repeated for state in states],
+        )
 
     def show_progress(self, text: str, done: float) -> None:
         """Say what is being computed, and how much of everything is done (0 to 1)."""
@@ -152,16 +193,52 @@ class ComparisonView:
             )
         self._message.value = "".join(lines)
 
+    def _show_colors(self, n_samples: int, states: Sequence[PanelState], color_by: str) -> None:
+        by_value = color_by in LOCAL_MEASURES
+        if by_value:
+            values = np.full((len(states), n_samples), np.nan, dtype=np.float32)
+            for place, state in zip(values, states, strict=True):
+                if state.measured is not None:
+                    place[:] = state.measured.local[color_by]
+            self._set("values", values)
+            self.scatter.value_name, self.scatter.value_best = color_by, LOCAL_MEASURES[color_by]
+        self.scatter.color_by = "value" if by_value else color_by
+
+    def _show_moved(self, n_control: int, states: Sequence[PanelState]) -> None:
+        if all(state.moved is None for state in states):
+            self._set("moved", np.empty(0))
+            return
+        moved = np.full((len(states), n_control, 2), np.nan, dtype=np.float32)
+        for place, state in zip(moved, states, strict=True):
+            if state.moved is not None:
+                place[:] = state.moved
+        self._set("moved", moved)
+
+    def _set(self, name: str, values: NDArray[Any]) -> None:
+        """Send values only if they changed: a busy panel reports often, and points are many."""
+        before = getattr(self.scatter, name)
+        if before.size != values.size or not np.array_equal(
+            before.ravel(), values.ravel().astype(before.dtype), equal_nan=values.dtype.kind == "f"
+        ):
+            setattr(self.scatter, name, values)
+
     def _laid_out(self, controls: Controls) -> widgets.Widget:
         self.scatter.layout = widgets.Layout(flex="3 1 440px", min_width="0")
         for view in (self.pose, self.details):
             view.layout = widgets.Layout(flex="1 1 210px", min_width="0", display="none")
         row = {"flex_flow": "row wrap", "grid_gap": "8px 16px", "align_items": "flex-start"}
         progress = widgets.Box(
-            [self.again, self.cancel, self._bar, self._doing],
+            [
+                self.again,
+                controls.repeat,
+                controls.n_seeds,
+                self.cancel,
+                self._bar,
+                self._doing,
+            ],
             layout=widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="4px 8px"),
         )
-        for part in (self.quality.table, self.quality.curves):
+        for part in (self.quality.table, self.quality.figures):
             part.layout = widgets.Layout(flex="1 1 360px", min_width="0")
         views = [self.scatter, self.pose, self.details]
         return widgets.VBox(
@@ -171,26 +248,41 @@ class ComparisonView:
                 self._message,
                 widgets.Box(views, layout=widgets.Layout(**row)),
                 widgets.Box(
-                    [self.quality.table, self.quality.curves], layout=widgets.Layout(**row)
+                    [self.quality.table, self.quality.figures], layout=widgets.Layout(**row)
                 ),
+                self.code.view,
             ],
             layout=widgets.Layout(width="100%"),
         )
 
 
+def _points(
+    n_samples: int, embeddings: Sequence[NDArray[np.float64] | None]
+) -> NDArray[np.float32]:
+    points = np.full((len(embeddings), n_samples, 2), np.nan, dtype=np.float32)
+    for place, embedding in zip(points, embeddings, strict=True):
+        if embedding is not None:
+            place[:] = embedding
+    return points
+
+
 def _panel(state: PanelState) -> dict[str, str]:
-    if state.result is not None:
-        quality = state.result.quality
-        detail = f"trustworthiness {quality.trustworthiness:.3f} · error {state.result.error:.3g}"
-        return {"title": state.title, "detail": detail, "state": "ready"}
-    if state.failure:
-        return {"title": state.title, "message": state.failure, "state": "failed"}
-    return {"title": state.title, "message": "computing …", "state": "busy"}
+    if state.result is None:
+        if state.failure:
+            return {"title": state.title, "message": state.failure, "state": "failed"}
+        return {"title": state.title, "message": "computing …", "state": "busy"}
+    if state.measured is None:
+        detail = state.failure or "measuring …"
+    else:
+        quality, error = state.measured.quality, state.measured.error
+        detail = f"trustworthiness {quality.trustworthiness:.3f} · error {error:.3g}"
+    return {"title": state.title, "detail": detail, "state": "ready"}
 
 
 def _content(summary: Summary) -> str:
     if summary.body:
         joints = len(set(summary.body.names))
-        return f"{summary.n_samples} frames, {joints} joints"
+        clips = f" of {len(summary.class_names)} clips" if summary.class_names else ""
+        return f"{summary.n_samples} frames{clips}, {joints} joints"
     classes = f", {len(summary.class_names)} classes" if summary.class_names else ""
     return f"{summary.n_samples} samples, {summary.n_features} features{classes}"

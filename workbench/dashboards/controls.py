@@ -6,11 +6,18 @@ from collections.abc import Callable, Sequence
 
 import ipywidgets as widgets
 
-from workbench.dashboards.quality_view import LETTERS
-from workbench.dashboards.session import Panel, Summary
+from workbench.dashboards.jobs import LOCAL_MEASURES
+from workbench.dashboards.panel_controls import PanelChooser
+from workbench.dashboards.panels import LETTERS, Panel
+from workbench.dashboards.sources import Choice, Source
+from workbench.dashboards.summaries import Summary
 
 _FITTING = {"description_width": "initial"}
 _OWN = ""  # the drop-down's value while data come from elsewhere
+_USUAL = ""  # the back-projector that suits the samples
+
+#: What colours can stand for.
+COLORS = ("class", "time", "none", *LOCAL_MEASURES)
 
 
 class Controls:
@@ -18,22 +25,120 @@ class Controls:
 
     Parameters
     ----------
-    datasets : sequence of (str, str)
-        What to show for a data set, and its name.
-    projectors : sequence of str
+    datasets : sequence of Choice
+        Data sets that can be shown.
+    projectors, back_projectors : sequence of str
         Names.
     panels : sequence of Panel
-        What to show first, 2 to 4.
+        What to show first, 1 to 6.
+    color_by : str or None
+        One of ``COLORS``, or what is usual for the samples.
+
+    Attributes
+    ----------
+    choosers : list of PanelChooser
+        The controls of each panel, also of those that may be added.
     """
 
     def __init__(
         self,
-        datasets: Sequence[tuple[str, str]],
+        datasets: Sequence[Choice],
         projectors: Sequence[str],
+        back_projectors: Sequence[str],
         panels: Sequence[Panel],
+        color_by: str | None = None,
     ) -> None:
+        self._clips = [choice.name for choice in datasets if choice.clip]
+        self._keeps_color = color_by is not None
+        self._make_data_controls(datasets)
+        self._make_settings(back_projectors, color_by)
+        self._make_repeat_controls()
+        self.count = widgets.Dropdown(
+            options=range(1, len(LETTERS) + 1),
+            value=len(panels),
+            description="Panels",
+            style=_FITTING,
+            layout=widgets.Layout(width="95px"),
+        )
+        filled = zip(LETTERS, _filled_up(panels, projectors), strict=True)
+        self.choosers = [PanelChooser(letter, projectors, panel) for letter, panel in filled]
+        self._own_row = _row([self.path, self.label, self.open])
+        self._further_row = _row([self.further])
+        self._show_parts()
+        for part in (self.count, self.own, self.several):
+            part.observe(lambda _: self._show_parts(), "value")
+        panel_rows = _row([chooser.view for chooser in self.choosers])
+        self.view = widgets.VBox(
+            [
+                _row([self.data, self.own, self.several, self.standardize]),
+                self._own_row,
+                self._further_row,
+                _row([self.count, self.ratio, self.seed, self.back_projector, self.color_by]),
+                panel_rows,
+            ]
+        )
+
+    @property
+    def n_repeats(self) -> int:
+        """Over how many seeds quality is measured; 1 for the shown one only."""
+        return self.n_seeds.value if self.repeat.value else 1
+
+    @property
+    def panels(self) -> list[Panel]:
+        """What the panels are to show."""
+        return [chooser.panel for chooser in self.choosers[: self.count.value]]
+
+    def on_settings(self, act: Callable[[], None]) -> None:
+        """Call back when a setting changed that panels depend on."""
+        settings = (self.ratio, self.seed, self.back_projector, self.repeat, self.n_seeds)
+        for control in (self.count, *settings):
+            control.observe(lambda _: act(), "value")
+        for chooser in self.choosers:
+            chooser.observe(act)
+
+    def offer(self, projectors: Sequence[str], back_projectors: Sequence[str]) -> None:
+        """List methods, those registered meanwhile among them."""
+        for chooser in self.choosers:
+            chooser.offer(projectors)
+        listed = _with_usual(back_projectors)
+        if list(self.back_projector.options) != listed:
+            chosen = self.back_projector.value
+            self.back_projector.options = listed
+            self.back_projector.value = chosen
+
+    def choose(self, source: Source) -> None:
+        """Show the name of the data; what is not listed is the user's own."""
+        first, *further = source.names
+        known = source.registered or not source.token
+        listed = {value for _, value in self.data.options}
+        self.data.value = first if known and first in listed else _OWN
+        others = [name for name in self._clips if name != first]
+        if list(self.further.options) != others:
+            self.further.options = others
+        self.further.value = [name for name in further if name in others]
+        if further:
+            self.several.value = True
+
+    def suit(self, summary: Summary, *, may_standardize: bool) -> None:
+        """Offer what makes sense for these samples."""
+        offered = ["class"] * bool(summary.class_names) + ["time", "none", *LOCAL_MEASURES]
+        chosen = self.color_by.value
+        if list(self.color_by.options) != offered:
+            self.color_by.options = offered
+        usual = "class" if summary.class_names else "time" if summary.body else "none"
+        kept = chosen in LOCAL_MEASURES or (self._keeps_color and chosen in offered)
+        self._keeps_color = False
+        if kept or (chosen == "time" and usual != "class"):
+            self.color_by.value = chosen
+        else:
+            self.color_by.value = usual
+        self.standardize.disabled = not may_standardize
+        self.several.layout.display = None if summary.body else "none"
+        self._show_parts()
+
+    def _make_data_controls(self, datasets: Sequence[Choice]) -> None:
         self.data = widgets.Dropdown(
-            options=[("your own", _OWN), *datasets],
+            options=[("your own", _OWN), *((choice.text, choice.name) for choice in datasets)],
             description="Data",
             style=_FITTING,
             layout=widgets.Layout(flex="1 1 300px", max_width="520px"),
@@ -43,6 +148,18 @@ class Controls:
             icon="folder-open",
             tooltip="Open a file of your own",
             layout=widgets.Layout(width="110px"),
+        )
+        self.several = widgets.ToggleButton(
+            description="Further clips",
+            icon="plus",
+            tooltip="Show further clips of the same skeleton on the same map",
+            layout=widgets.Layout(width="130px", display="none"),
+        )
+        self.further = widgets.SelectMultiple(
+            description="Further clips",
+            rows=5,
+            style=_FITTING,
+            layout=widgets.Layout(flex="1 1 300px", max_width="520px"),
         )
         self.path = widgets.Text(
             placeholder="path of a CSV, TSV, Parquet, ARFF, BVH or AMC file",
@@ -62,11 +179,14 @@ class Controls:
         self.standardize = widgets.Checkbox(
             description="standardize columns", indent=False, layout=widgets.Layout(width="160px")
         )
+
+    def _make_settings(self, back_projectors: Sequence[str], color_by: str | None) -> None:
         self.color_by = widgets.Dropdown(
-            options=["class", "time", "none"],
+            options=COLORS,
+            value=color_by or COLORS[0],
             description="Colour by",
             style=_FITTING,
-            layout=widgets.Layout(width="150px"),
+            layout=widgets.Layout(width="265px"),
         )
         self.ratio = widgets.FloatSlider(
             min=0.01,
@@ -76,7 +196,7 @@ class Controls:
             description="Control points",
             continuous_update=False,
             style=_FITTING,
-            layout=widgets.Layout(width="280px", max_width="98%"),
+            layout=widgets.Layout(width="260px", max_width="98%"),
         )
         self.seed = widgets.BoundedIntText(
             min=0,
@@ -85,90 +205,36 @@ class Controls:
             style=_FITTING,
             layout=widgets.Layout(width="110px"),
         )
-        self.count = widgets.Dropdown(
-            options=[2, 3, 4],
-            value=len(panels),
-            description="Panels",
+        self.back_projector = widgets.Dropdown(
+            options=_with_usual(back_projectors),
+            description="Back-projector",
+            tooltip="What rebuilds samples from their positions in the plane",
             style=_FITTING,
-            layout=widgets.Layout(width="95px"),
-        )
-        self.projector = [
-            widgets.Dropdown(
-                options=projectors,
-                description=f"Projector {letter}",
-                style=_FITTING,
-                layout=widgets.Layout(width="185px"),
-            )
-            for letter in LETTERS
-        ]
-        self.optimized = [
-            widgets.Checkbox(
-                description=f"optimized {letter}",
-                indent=False,
-                tooltip=f"Optimize the embedding of panel {letter}",
-                layout=widgets.Layout(width="105px"),
-            )
-            for letter in LETTERS
-        ]
-        self._choosers = [
-            widgets.HBox(list(pair), layout=widgets.Layout(align_items="center"))
-            for pair in zip(self.projector, self.optimized, strict=True)
-        ]
-        for index, panel in enumerate(_filled_up(panels, projectors)):
-            self.projector[index].value = panel.projector
-            self.optimized[index].value = panel.optimized
-        self._own_row = _row([self.path, self.label, self.open])
-        self._show_parts()
-        self.count.observe(lambda _: self._show_parts(), "value")
-        self.own.observe(lambda _: self._show_parts(), "value")
-        self.view = widgets.VBox(
-            [
-                _row([self.data, self.own]),
-                self._own_row,
-                _row([self.count, *self._choosers]),
-                _row([self.color_by, self.standardize, self.ratio, self.seed]),
-            ]
+            layout=widgets.Layout(width="245px"),
         )
 
-    @property
-    def panels(self) -> list[Panel]:
-        """What the panels are to show."""
-        pairs = zip(self.projector, self.optimized, strict=True)
-        return [Panel(p.value, o.value) for p, o in pairs][: self.count.value]
-
-    def on_settings(self, act: Callable[[], None]) -> None:
-        """Call back when a setting changed that panels depend on."""
-        inputs = [self.count, self.ratio, self.seed, *self.projector, *self.optimized]
-        for control in inputs:
-            control.observe(lambda _: act(), "value")
-
-    def offer_projectors(self, names: Sequence[str]) -> None:
-        """List projectors, those registered meanwhile among them."""
-        for control in self.projector:
-            if list(control.options) != list(names):
-                chosen = control.value
-                control.options = list(names)
-                control.value = chosen
-
-    def choose(self, name: str | None) -> None:
-        """Show the name of the data; None or an unlisted name stands for the user's own."""
-        listed = {value for _, value in self.data.options}
-        self.data.value = name if name in listed else _OWN
-
-    def suit(self, summary: Summary, *, may_standardize: bool) -> None:
-        """Offer what makes sense for these samples."""
-        offered = ["class"] * bool(summary.class_names) + ["time", "none"]
-        if list(self.color_by.options) != offered:
-            self.color_by.options = offered
-        usual = "class" if summary.class_names else "time" if summary.body else "none"
-        if self.color_by.value == "none" or usual == "class":
-            self.color_by.value = usual
-        self.standardize.disabled = not may_standardize
+    def _make_repeat_controls(self) -> None:
+        self.repeat = widgets.ToggleButton(
+            description="Repeat over seeds",
+            icon="random",
+            tooltip="Measure the quality with further seeds, and show its spread",
+            layout=widgets.Layout(width="165px"),
+        )
+        self.n_seeds = widgets.BoundedIntText(
+            value=5,
+            min=2,
+            max=100,
+            description="Seeds",
+            style=_FITTING,
+            layout=widgets.Layout(width="100px"),
+        )
 
     def _show_parts(self) -> None:
-        for index, chooser in enumerate(self._choosers):
-            chooser.layout.display = None if index < self.count.value else "none"
+        for index, chooser in enumerate(self.choosers):
+            chooser.view.layout.display = None if index < self.count.value else "none"
         self._own_row.layout.display = None if self.own.value else "none"
+        several = self.several.value and self.several.layout.display is None
+        self._further_row.layout.display = None if several else "none"
 
 
 def _row(parts: Sequence[widgets.Widget]) -> widgets.Box:
@@ -177,9 +243,14 @@ def _row(parts: Sequence[widgets.Widget]) -> widgets.Box:
     return widgets.Box(list(parts), layout=layout)
 
 
+def _with_usual(back_projectors: Sequence[str]) -> list[tuple[str, str]]:
+    return [("the usual one", _USUAL), *((name, name) for name in back_projectors)]
+
+
 def _filled_up(panels: Sequence[Panel], projectors: Sequence[str]) -> list[Panel]:
     """Choose something to show for the panels that may be added."""
     taken = {panel.projector for panel in panels}
     others = [Panel(name) for name in projectors if name not in taken]
-    others += [Panel(panel.projector, not panel.optimized) for panel in panels]
+    others += [Panel(panel.projector, panel.parameters, not panel.optimized) for panel in panels]
+    others += [Panel(name, optimized=True) for name in projectors]
     return [*panels, *others][: len(LETTERS)]

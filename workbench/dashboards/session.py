@@ -2,194 +2,46 @@
 
 from __future__ import annotations
 
-import os
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import replace
+from inspect import signature
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from workbench.dashboards.background import Report
+from workbench.dashboards.jobs import (
+    Description,
+    Influence,
+    Job,
+    Methods,
+    Move,
+    PanelResult,
+    Repetition,
+    Run,
+    Values,
+)
+from workbench.dashboards.panels import check_parameters
+from workbench.dashboards.sources import Source, load_source
+from workbench.dashboards.summaries import Summary, summarize
 from workbench.errors import (
     AdjustmentWarning,
-    DataError,
     DegenerateDataWarning,
     WorkbenchError,
 )
-from workbench.quality.summary import EmbeddingQuality
-from workbench.registry import Registry
-from workbench.spaces import PoseSpace, Space, VectorSpace
+from workbench.spaces import PoseSpace, Space
 
-#: The matrix of all distances takes 8 bytes for each pair: 1.2 GB at this size.
-MAX_SAMPLES = 12_000
+if TYPE_CHECKING:
+    from workbench.results import SpatialResult
+
+#: Values of the table of influences that the page gets: 16 MB.
+MAX_INFLUENCES = 4_000_000
 
 _LARGEST_K = 100
 _SIZES = 24
-
-
-@dataclass(frozen=True)
-class Source:
-    """Where samples come from.
-
-    Attributes
-    ----------
-    name : str
-        A data set's name, a file's path, or what to call ``space``.
-    label : str or None
-        The column of a user's table that holds the classes.
-    standardize : bool
-        Whether to standardise the columns of a table; motions stay as they are.
-    space : Space or None
-        Samples that are in memory already.
-    token : int
-        Tells samples in memory apart, because a copy in another process is another object.
-    registered : bool
-        Whether a loader that the user registered in the kernel gives the samples.
-    version : tuple of int
-        Tells a file of the user's apart from itself before it was edited, see
-        :func:`file_version`; empty for samples from elsewhere.
-    """
-
-    name: str
-    label: str | None = None
-    standardize: bool = False
-    space: Space | None = field(default=None, compare=False)
-    token: int = 0
-    registered: bool = False
-    version: tuple[int, ...] = ()
-
-
-@dataclass(frozen=True)
-class Panel:
-    """What one panel shows.
-
-    Attributes
-    ----------
-    projector : str
-        A registered name.
-    optimized : bool
-        Whether the embedding is optimized.
-    """
-
-    projector: str
-    optimized: bool = False
-
-
-@dataclass(frozen=True)
-class Run:
-    """Everything that decides what a panel shows.
-
-    Attributes
-    ----------
-    source : Source
-        The samples.
-    panel : Panel
-        What to make of them.
-    ratio : float
-        Share of control points.
-    seed : int
-        Seed of selector and projector.
-    """
-
-    source: Source
-    panel: Panel
-    ratio: float
-    seed: int
-
-
-@dataclass(frozen=True, eq=False)
-class Body:
-    """A motion as the pose view draws it.
-
-    Attributes
-    ----------
-    positions : ndarray of shape (n_frames, n_nodes, 3), float32
-        Joints, followed by end sites, in file units.
-    parents : list of int
-        Parent of each node, -1 for the root.
-    names : list of str
-        The joint that each node is, or hangs on.
-    frame_time : float
-        Seconds.
-    """
-
-    positions: NDArray[np.float32]
-    parents: list[int]
-    names: list[str]
-    frame_time: float
-
-
-@dataclass(frozen=True, eq=False)
-class Summary:
-    """What the views need to know of the samples.
-
-    Attributes
-    ----------
-    name : str
-        What to call them.
-    n_samples, n_features : int
-        Their number and that of their features.
-    classes : ndarray of shape (n_samples,), int32
-        Index into ``class_names``; empty without classes.
-    class_names : list of str
-        Sorted.
-    columns : list of str
-        Features of a table.
-    values : ndarray of shape (n_samples, n_features), float32
-        The table.
-    body : Body or None
-        Poses, for a motion.
-    notes : tuple of str
-        How the data were treated.
-    """
-
-    name: str
-    n_samples: int
-    n_features: int
-    classes: NDArray[np.int32]
-    class_names: list[str]
-    columns: list[str]
-    values: NDArray[np.float32]
-    body: Body | None
-    notes: tuple[str, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class PanelResult:
-    """What a panel shows.
-
-    Attributes
-    ----------
-    embedding : ndarray of shape (n_samples, 2)
-        Positions.
-    control_points : ndarray of shape (n_control_points,)
-        Indices.
-    errors : ndarray of shape (n_samples,)
-        Back-projection error of each sample.
-    error : float
-        Their mean.
-    quality : EmbeddingQuality
-        Quality of the embedding.
-    k, preservation : ndarray of shape (n_sizes,)
-        Neighbourhood sizes, and the neighbourhood preservation at each.
-    seconds : float
-        Time of the run.
-    notes : tuple of str
-        What was adjusted, and how the optimizer ended.
-    """
-
-    embedding: NDArray[np.float64]
-    control_points: NDArray[np.intp]
-    errors: NDArray[np.float64]
-    error: float
-    quality: EmbeddingQuality
-    k: NDArray[np.intp]
-    preservation: NDArray[np.float64]
-    seconds: float
-    notes: tuple[str, ...]
 
 
 class Session:
@@ -200,6 +52,21 @@ class Session:
         self._space: Space | None = None
         self._notes: tuple[str, ...] = ()
         self._projections: dict[Any, tuple[NDArray[np.float64], tuple[str, ...]]] = {}
+        self._influences: dict[tuple[int, ...], NDArray[np.float64]] = {}
+
+    def answer(self, job: Job, methods: Methods, *, report: Report) -> Any:
+        """Do a job and give what its class says."""
+        if isinstance(job, Source):
+            return self.load(job, report=report)
+        if isinstance(job, Run):
+            return self.run(job, methods, report=report)
+        if isinstance(job, Repetition):
+            return self.repeat(job, methods, report=report)
+        if isinstance(job, Move):
+            return self.move(job, methods, report=report)
+        if isinstance(job, Influence):
+            return self.influence(job, report=report)
+        return self.describe(job, methods, report=report)
 
     def load(self, source: Source, *, report: Report) -> Summary:
         """Load samples and describe them."""
@@ -207,60 +74,159 @@ class Session:
         report("preparing the views", None)
         return summarize(space, self._notes)
 
-    def run(self, run: Run, projectors: Registry, *, report: Report) -> PanelResult:
+    def run(self, run: Run, methods: Methods, *, report: Report) -> PanelResult:
         """Compute what a panel shows.
 
         Parameters
         ----------
         run : Run
             The samples, the method and its settings.
-        projectors : Registry
-            The kernel's projectors, those of its user among them.
+        methods : Methods
+            The kernel's methods.
         report : callable
             Gets the progress.
         """
-        from workbench.optimization import VISUALIZATION_OPTIMIZER
-        from workbench.quality.neighborhoods import neighborhood_quality
-        from workbench.schemes import SpatialScheme
+        result, notes = self._scheme_result(run, methods, report)
+        return self._panel_result(run, result, notes, report)
+
+    def repeat(self, job: Repetition, methods: Methods, *, report: Report) -> Values:
+        """Measure the quality of a run."""
+        result, _ = self._scheme_result(job.run, methods, report)
+        report("measuring quality", 0.9)
+        return Values(result.quality, result.error)
+
+    def move(self, job: Move, methods: Methods, *, report: Report) -> PanelResult:
+        """Measure the embedding that follows from moved control points."""
+        from workbench.schemes import choose_control_points
+
+        space = self._load(job.run.source, report)
+        control = choose_control_points(
+            space, _selector(space), ratio=job.run.ratio, random_state=job.run.seed
+        )
+        places = job.places.astype(np.float64)
+        if len(places) != len(control):
+            raise WorkbenchError(f"moved: got {len(places)} positions, want {len(control)}")
+        report("placing samples", 0.2)
+        embedding = self._influence(space, control) @ places
+        raw = replace(job.run, panel=replace(job.run.panel, optimized=False))
+        result, notes = self._rebuilt(raw, methods, space, embedding, report)
+        return self._panel_result(raw, result, tuple(notes), report)
+
+    def influence(self, job: Influence, *, report: Report) -> NDArray[np.float32]:
+        """Say how much each control point counts for each sample.
+
+        Raises
+        ------
+        WorkbenchError
+            If that is too much for the page.
+        """
+        space = self._load(job.source, report)
+        if len(space) * len(job.control_points) > MAX_INFLUENCES:
+            raise WorkbenchError(
+                f"control points cannot be moved: {len(space)} samples by "
+                f"{len(job.control_points)} control points are more than the "
+                f"{MAX_INFLUENCES // 1_000_000} million values that the page takes; "
+                "choose fewer control points"
+            )
+        report("preparing to move control points", 0.5)
+        influence = self._influence(space, np.array(job.control_points))
+        return influence.astype(np.float32)
+
+    def describe(self, job: Description, methods: Methods, *, report: Report) -> dict[str, Any]:
+        """List a projector's parameters with their defaults."""
+        report(f"looking up the parameters of {job.projector}", None)
+        return _defaults(methods.projectors.factory(job.projector))
+
+    def _scheme_result(
+        self, run: Run, methods: Methods, report: Report
+    ) -> tuple[SpatialResult, tuple[str, ...]]:
+        from workbench.schemes import choose_control_points
 
         space = self._load(run.source, report)
         report("measuring distances", 0.05)
-        distances = space.distances
+        _ = space.distances
+        control = choose_control_points(
+            space, _selector(space), ratio=run.ratio, random_state=run.seed
+        )
         report("projecting", 0.2)
-        projected, notes = self._project(run, projectors, space)
+        projected, notes = self._project(run, methods, space, control)
+        result, said = self._rebuilt(run, methods, space, projected, report)
+        if result.optimization is not None:
+            ended = result.optimization
+            said.append(f"optimized in {ended.iterations} iterations: {ended.reason}")
+        return result, tuple(dict.fromkeys([*notes, *said]))
+
+    def _rebuilt(
+        self,
+        run: Run,
+        methods: Methods,
+        space: Space,
+        embedding: NDArray[np.float64] | None,
+        report: Report,
+    ) -> tuple[SpatialResult, list[str]]:
+        """Optimize an embedding if that is wanted, and rebuild the samples from it."""
+        from workbench.optimization import VISUALIZATION_OPTIMIZER
+        from workbench.schemes import SpatialScheme
 
         def follow(iteration: int, error: float, embedding: NDArray[np.float64]) -> None:  # noqa: ARG001 - the optimizer's signature
             # How many are to come is not known; most samples rest within twenty.
-            report(f"optimizing, iteration {iteration}", 0.9 - 0.4 * 0.9**iteration)
+            report(f"optimizing, iteration {iteration}", 0.85 - 0.35 * 0.9**iteration)
 
         report("back-projecting", 0.5)
+        panel, name = run.panel, run.back_projector
         scheme = SpatialScheme(
-            run.panel.projector,
-            optimizer=VISUALIZATION_OPTIMIZER if run.panel.optimized else None,
+            _created(methods, run) if embedding is None else panel.projector,
+            selector=_selector(space),
+            back_projector=None if name is None else methods.back_projectors.create(name),
+            optimizer=VISUALIZATION_OPTIMIZER if panel.optimized else None,
+            two_step="rbfp" if panel.two_step else None,
         )
         with _said_by_warnings() as said:
             result = scheme.run(
                 space,
                 ratio=run.ratio,
                 random_state=run.seed,
-                projected=projected,
+                projected=embedding,
                 callback=follow,
             )
-        report("measuring quality", 0.9)
-        curve = neighborhood_quality(distances, result.embedding, curve_sizes(len(space)))
-        ended = result.optimization
-        if ended is not None:
-            said.append(f"optimized in {ended.iterations} iterations: {ended.reason}")
+        return result, said
+
+    def _panel_result(
+        self, run: Run, result: SpatialResult, notes: tuple[str, ...], report: Report
+    ) -> PanelResult:
+        from workbench.quality.local_stress import local_stress
+        from workbench.quality.neighborhoods import (
+            local_neighborhood_quality,
+            neighborhood_quality,
+        )
+        from workbench.quality.shepard_diagram import shepard_diagram
+
+        report("measuring quality", 0.86)
+        distances, embedding = result.space.distances, result.embedding
+        quality = result.quality
+        curve = neighborhood_quality(distances, embedding, curve_sizes(len(embedding)))
+        report("measuring the quality of samples", 0.94)
+        near = local_neighborhood_quality(distances, embedding, quality.k)
+        local = {
+            "stress": local_stress(distances, embedding),
+            "trustworthiness": near.trustworthiness,
+            "continuity": near.continuity,
+            "neighbourhood preservation": near.preservation,
+            "reconstruction error": result.errors,
+        }
         return PanelResult(
-            embedding=result.embedding,
+            embedding=embedding,
+            projected=result.projected if run.panel.optimized else None,
             control_points=result.control_points,
             errors=result.errors,
             error=result.error,
-            quality=result.quality,
+            quality=quality,
+            local={name: values.astype(np.float32) for name, values in local.items()},
             k=curve.k,
             preservation=curve.preservation,
+            shepard=shepard_diagram(distances, embedding, random_state=run.seed),
             seconds=result.timings.total,
-            notes=(*notes, *said),
+            notes=notes,
         )
 
     def _load(self, source: Source, report: Report) -> Space:
@@ -269,86 +235,50 @@ class Session:
             space, notes = load_source(source)
             self._source, self._space, self._notes = source, space, notes
             self._projections.clear()
+            self._influences.clear()
         return self._space
 
-    def _project(
-        self, run: Run, projectors: Registry, space: Space
-    ) -> tuple[NDArray[np.float64], tuple[str, ...]]:
-        from workbench.projection import project
+    def _influence(self, space: Space, control: NDArray[np.intp]) -> NDArray[np.float64]:
+        from workbench.projection.rbfp import RBFP
 
-        factory: Callable[[], Any] = projectors.factory(run.panel.projector)
+        key = tuple(control.tolist())
+        if key not in self._influences:
+            self._influences.clear()  # large, and only those of one choice are on the page
+            self._influences[key] = RBFP().influence(space, control)
+        return self._influences[key]
+
+    def _project(
+        self, run: Run, methods: Methods, space: Space, control: NDArray[np.intp]
+    ) -> tuple[NDArray[np.float64] | None, tuple[str, ...]]:
+        """Project, or remember a projection; None if the scheme has to do it.
+
+        Of a projection that is given, a scheme cannot know the inverse.
+        """
+        from workbench.projection import project
+        from workbench.projection.two_step import project_in_two_steps
+
+        panel = run.panel
+        inverts = run.back_projector is not None and hasattr(
+            methods.back_projectors.create(run.back_projector), "use_projection"
+        )
         # The factory is part of the key because a user may register another by that name.
-        key = (factory, run.seed)
+        factory = methods.projectors.factory(panel.projector)
+        around = control.tobytes() if panel.two_step else b""
+        key = (factory, repr(sorted(panel.parameters.items())), run.seed, around)
+        if inverts and not panel.two_step:
+            _check_dimensions(panel.projector, getattr(_created(methods, run), "n_components", 2))
+            return None, ()
         if key not in self._projections:
+            projector = _created(methods, run)
             with _said_by_warnings() as said:
-                embedding = project(space, factory(), random_state=run.seed)
-            if embedding.shape[1] != 2:
-                raise WorkbenchError(
-                    f"projector {run.panel.projector!r}: got {embedding.shape[1]} dimensions, "
-                    "want 2 to show them in a panel"
+                embedding = (
+                    project_in_two_steps(space, projector, "rbfp", control, random_state=run.seed)
+                    if panel.two_step
+                    else project(space, projector, random_state=run.seed)
                 )
+            _check_dimensions(panel.projector, embedding.shape[1])
             self._projections[key] = embedding, tuple(said)
         return self._projections[key]
-
-
-def load_source(source: Source) -> tuple[Space, tuple[str, ...]]:
-    """Load samples and how they were treated.
-
-    Raises
-    ------
-    DataError
-        If they cannot be loaded, there are too many of them, or their file was edited since it
-        was opened: panels would show different samples side by side.
-    """
-    from workbench.datasets import Table, load
-
-    notes: tuple[str, ...] = ()
-    space = source.space
-    if source.version and source.version != file_version(source.name):
-        raise DataError(f"{source.name}: the file has changed; compute again to read it anew")
-    if space is None:
-        data = load(source.name, label=source.label)
-        if isinstance(data, Table):
-            space, notes = data.space(standardize=source.standardize), data.notes
-        else:
-            space = PoseSpace(data)
-    if len(space) > MAX_SAMPLES:
-        raise DataError(
-            f"{source.name}: got {len(space)} samples, want at most {MAX_SAMPLES}: the distances "
-            "between all of them must fit into memory"
-        )
-    return space, notes
-
-
-def file_version(path: str) -> tuple[int, int]:
-    """Give the time of a file's last change, in nanoseconds, and its size; zeros if missing."""
-    try:
-        status = os.stat(path)
-    except OSError:
-        return 0, 0
-    return status.st_mtime_ns, status.st_size
-
-
-def summarize(space: Space, notes: tuple[str, ...] = ()) -> Summary:
-    """Describe samples for the views."""
-    names: list[str] = []
-    classes = np.empty(0, dtype=np.int32)
-    labels = getattr(space, "labels", None)
-    if labels is not None:
-        unique, inverse = np.unique(labels.astype(str), return_inverse=True)
-        names, classes = unique.tolist(), inverse.astype(np.int32)
-    table = isinstance(space, VectorSpace)
-    return Summary(
-        name=space.name,
-        n_samples=len(space),
-        n_features=space.features.shape[1],
-        classes=classes,
-        class_names=names,
-        columns=list(space.columns) if isinstance(space, VectorSpace) else [],
-        values=space.features.astype(np.float32) if table else np.empty((0, 0), np.float32),
-        body=_body(space) if isinstance(space, PoseSpace) else None,
-        notes=notes,
-    )
 
 
 def curve_sizes(n_samples: int) -> NDArray[np.intp]:
@@ -357,18 +287,36 @@ def curve_sizes(n_samples: int) -> NDArray[np.intp]:
     return np.unique(np.geomspace(1, largest, _SIZES).round().astype(np.intp))
 
 
-def _body(space: PoseSpace) -> Body:
-    from workbench.mocap.kinematics import end_site_positions
+def _selector(space: Space) -> str:
+    """Name the usual selector: rows of a table have no order in time."""
+    return "uniform" if isinstance(space, PoseSpace) else "random"
 
-    skeleton = space.motion.skeleton
-    ends = [site.joint for site in skeleton.end_sites]
-    nodes = np.concatenate([space.positions, end_site_positions(space.motion)], axis=1)
-    return Body(
-        positions=nodes.astype(np.float32),
-        parents=[*skeleton.parents.tolist(), *ends],
-        names=[*skeleton.names, *(skeleton.names[joint] for joint in ends)],
-        frame_time=space.motion.frame_time,
-    )
+
+def _created(methods: Methods, run: Run) -> Any:
+    """Make a panel's projector with its parameters."""
+    factory, panel = methods.projectors.factory(run.panel.projector), run.panel
+    known = _defaults(factory)
+    if known:
+        check_parameters(panel.projector, panel.parameters, known)
+    return factory(**panel.parameters)
+
+
+def _defaults(factory: Any) -> dict[str, Any]:
+    """List the parameters of a class or function that have defaults; none if it takes any."""
+    try:
+        parameters = signature(factory).parameters.values()
+    except (TypeError, ValueError):  # one that is compiled, for instance
+        return {}
+    if any(p.kind is p.VAR_KEYWORD for p in parameters):
+        return {}
+    return {p.name: p.default for p in parameters if p.default is not p.empty}
+
+
+def _check_dimensions(projector: str, found: int) -> None:
+    if found != 2:
+        raise WorkbenchError(
+            f"projector {projector!r}: got {found} dimensions, want 2 to show them in a panel"
+        )
 
 
 @contextmanager
