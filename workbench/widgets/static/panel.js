@@ -38,8 +38,11 @@ class Panel {
   /** Prepare canvases and marks for a size in pixels. */
   fit(size, marks) {
     this.cloud.resize(size);
-    for (const canvas of [this.base, this.marks, this.top]) fitCanvas(canvas, size, size);
     this.raster = new Raster(size, marks.ratio);
+    for (const canvas of [this.base, this.marks, this.top]) {
+      canvas.width = canvas.height = this.raster.width;
+      canvas.getContext("2d").setTransform(marks.ratio, 0, 0, marks.ratio, 0, 0);
+    }
     this.dots = marks.dots.map((sprite) => this.raster.fit(sprite));
     this.cross = this.raster.fit(marks.cross);
     this.places = new Int32Array(0);
