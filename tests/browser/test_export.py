@@ -13,6 +13,7 @@ import numpy as np
 import plotly.graph_objects as go
 import pytest
 
+from tests.browser.axe import violations
 from workbench.errors import WorkbenchError
 from workbench.widgets import FigureView, SampleDetails, ScatterPanels
 from workbench.widgets.export import export_html, html_page
@@ -137,3 +138,28 @@ def test_what_cannot_be_exported_is_refused(views: Any, words: str, tmp_path: Pa
     with pytest.raises(WorkbenchError, match=words):
         export_html(views, tmp_path / "page.html", title="")
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_a_page_breaks_no_rule_of_accessibility(opened: Callable, visit: Any, scheme: str) -> None:
+    """Values coloured, a control point moved and the menu open, axe finds nothing."""
+    visit.page.emulate_media(color_scheme=scheme)
+    values = np.linspace(0, 1, 18).reshape(2, 9)
+    values[0, 0] = np.nan
+    shown = panels(
+        values=values,
+        value_name="stress",
+        raw_points=[POINTS, POINTS],
+        control_points=[0, 8],
+        influence=np.stack([np.linspace(1, 0, 9), np.linspace(0, 1, 9)], axis=1),
+        movable=True,
+    )
+    shown.color_by = "value"
+    page = opened([[shown, details()]], text="Nine samples.")
+    page.get_by_role("button", name="Move control points").click()
+    page.locator(".wb-plot").first.focus()
+    for key in ("ArrowRight", "Enter", "ArrowUp", "Enter"):
+        page.keyboard.press(key)
+    page.get_by_role("button", name="Save").click()
+    page.wait_for_function("document.querySelector('.wb-tag').textContent === 'moved'")
+    assert violations(page) == []

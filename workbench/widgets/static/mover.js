@@ -74,12 +74,18 @@ class Mover {
       if (this.grip) this.drop();
       else if (at >= 0) this.lift(panel, controls[at]);
     } else if (this.grip && key in arrows) {
-      const way = shiftKey ? 1 : NUDGE;
-      this.shift(this.grip.dx + way * arrows[key][0], this.grip.dy + way * arrows[key][1]);
+      this.nudge(...arrows[key].map((way) => way * (shiftKey ? 1 : NUDGE)));
     } else if (!this.grip && ARROWS.includes(key)) {
       this.view.hover(controls[stepped(key, at, controls.length)], panel, true);
     } else return false;
     return true;
+  }
+
+  /** Move the held control point, but not out of sight: there is no hand to tell where it is. */
+  nudge(dx, dy) {
+    const { panel: { cloud }, sample } = this.grip;
+    const kept = (at, way) => Math.max(EDGE, Math.min(cloud.size - EDGE, at + way)) - at;
+    this.shift(this.grip.dx + kept(cloud.x[sample], dx), this.grip.dy + kept(cloud.y[sample], dy));
   }
 
   // What both do.
