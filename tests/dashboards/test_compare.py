@@ -371,7 +371,7 @@ def test_any_error_is_told_in_its_place(
         await asyncio.wait_for(iris.finished(), 60)
 
     with monkeypatch.context() as patch:
-        patch.setattr(iris._background, "_started", refuse)
+        patch.setattr(iris._live.background, "_started", refuse)
         asyncio.run(main())
     told = iris.message if part == "data" else iris.view.scatter.panels[1]["message"]
     assert told == "OSError: too many processes"

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -16,24 +15,11 @@ from workbench.dashboards.arguments import (
     checked_panels,
     checked_selection,
 )
-from workbench.dashboards.background import Background
-from workbench.dashboards.code_cell import comparison_code
-from workbench.dashboards.comparison_view import ComparisonView
-from workbench.dashboards.controls import Controls
 from workbench.dashboards.exports import comparison_page, results_table
-from workbench.dashboards.jobs import Job, Methods, PanelResult
+from workbench.dashboards.jobs import PanelResult
+from workbench.dashboards.live import LiveComparison
 from workbench.dashboards.panels import Panel
-from workbench.dashboards.plan import Plan
-from workbench.dashboards.session import Session
-from workbench.dashboards.sources import (
-    Source,
-    available,
-    loaded_here,
-    reread,
-    source_of,
-    standardized,
-)
-from workbench.dashboards.worker import Worker
+from workbench.dashboards.sources import source_of
 from workbench.errors import WorkbenchError
 from workbench.files import write_atomically
 from workbench.spaces import Space
@@ -143,36 +129,11 @@ class ProjectionComparison:
         settings = settings or Settings()
         chosen = checked_panels(panels)
         source = source_of(data, settings.label, settings.standardize)
-        self._methods = Methods()
-        self.controls = Controls(
-            available(),
-            self._methods.projectors.names(),
-            self._methods.back_projectors.names(),
-            chosen,
-            settings.color_by,
-        )
-        self._set_up(settings)
-        self.view = ComparisonView(self.controls)
-        self._plan = Plan(source, self.controls)
-        self._plan.moves.expect(checked_moves(settings.moved))
-        self._expected_selection = checked_selection(settings.selection)
-        self._quiet = False
-        self._background = Background(Session)
-        self._worker: Worker[Job] = Worker(
-            self._background,
-            missing=self._plan.missing,
-            failures=self._plan.failures,
-            prepare=self._prepared,
-            done=self._take,
-            changed=self._show,
-            report=self._report,
-        )
-        self._show_choice()
-        self._connect()
-        self._worker.wake()
+        self._live = LiveComparison(source, chosen, settings)
+        self.controls, self.view = self._live.controls, self._live.view
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        self._offer()
+        self._live.offer()
         return self.view.root._repr_mimebundle_(**kwargs)
 
     @property
@@ -184,7 +145,7 @@ class ProjectionComparison:
     @selection.setter
     def selection(self, samples: ArrayLike) -> None:
         indices = checked_selection(samples)
-        limit = self._plan.summary.n_samples if self._plan.summary else 0
+        limit = self._live.plan.summary.n_samples if self._live.plan.summary else 0
         if indices.size and indices.max() >= limit:
             raise WorkbenchError(
                 f"selection: got index {indices.max()}, want indices below {limit}"
@@ -200,58 +161,30 @@ class ProjectionComparison:
         Each of shape (n_control_points, 2), in the order of the results' ``control_points``.
         Set it to move others; empty puts all back.
         """
-        moves = {
-            letter: self._plan.moves.of(letter, run) for letter, run in self._plan.runs.items()
-        }
-        return {letter: move.places for letter, move in moves.items() if move is not None}
+        return self._live.moved
 
     @moved.setter
     def moved(self, moved: Mapping[str, ArrayLike]) -> None:
-        places = checked_moves(moved)
-        plan = self._plan
-        plan.moves.forget()
-        plan.moves.expect(places)
-        n_control = len(plan.control_points)
-        for letter, run in plan.runs.items() if n_control else ():
-            plan.moves.settle(letter, run, n_control)
-        self._worker.wake()
+        self._live.move(checked_moves(moved))
 
     @property
     def results(self) -> dict[str, PanelResult]:
         """What the panels show, by their letters, as far as it is there."""
-        return self._plan.results
+        return self._live.plan.results
 
     @property
     def message(self) -> str:
         """Why the data that were asked for are not shown; empty if they are."""
-        return self._plan.failures.get(self._plan.wanted, "")
+        return self._live.message
 
     @property
     def code(self) -> str:
         """The code of a cell that makes this view again."""
-        controls = self.controls
-        plan = self._plan
-        source = plan.source if plan.source is not None and self.message else plan.wanted
-        rounded = {
-            letter: [[round(float(x), 6) for x in place] for place in places]
-            for letter, places in self.moved.items()
-        }
-        settings = {
-            "standardize": source.standardize,
-            "label": source.label,
-            "ratio": round(controls.ratio.value, 4),
-            "random_state": controls.seed.value,
-            "back_projector": controls.back_projector.value or None,
-            "color_by": controls.color_by.value,
-            "selection": self.selection.tolist() or (),
-            "moved": rounded,
-            "repeat": controls.n_repeats,
-        }
-        return comparison_code(source, controls.panels, settings, vars(Settings()))
+        return self._live.code
 
     async def finished(self) -> None:
         """Wait until everything is computed: ``await dashboard.finished()``."""
-        await self._worker.finished()
+        await self._live.worker.finished()
 
     def open(self, data: Data, label: str | None = None) -> None:
         """Show other data; those shown now stay if the new ones cannot be loaded.
@@ -263,25 +196,18 @@ class ProjectionComparison:
         label : str, optional
             The column of a table of your own that holds the classes.
         """
-        self._want(source_of(data, label, self.controls.standardize.value))
+        self._live.want(source_of(data, label, self.controls.standardize.value))
 
     def cancel(self) -> None:
         """End what is being computed; panels that are complete stay."""
-        self._worker.cancel()
+        self._live.worker.cancel()
 
     def recompute(self) -> None:
         """Compute what failed or was cancelled, or everything anew if nothing did.
 
         A file that was edited meanwhile is read again.
         """
-        self._offer()
-        plan = self._plan
-        wanted = reread(plan.wanted)
-        if not plan.failures and wanted == plan.wanted:
-            plan.forget()
-        plan.failures.clear()
-        plan.wanted = wanted
-        self._worker.wake()
+        self._live.recompute()
 
     def to_frame(self) -> pd.DataFrame:
         """Put positions and qualities of the samples in a table, one row for each.
@@ -297,9 +223,9 @@ class ProjectionComparison:
         WorkbenchError
             If there are no data.
         """
-        if self._plan.summary is None:
+        if self._live.plan.summary is None:
             raise WorkbenchError("data: got none so far, want some to write")
-        return results_table(self._plan.summary, self.results, self.selection)
+        return results_table(self._live.plan.summary, self.results, self.selection)
 
     def save_csv(self, path: str | Path) -> Path:
         """Write the table of :meth:`to_frame` to a file; one that exists is replaced."""
@@ -309,131 +235,11 @@ class ProjectionComparison:
 
     def save_html(self, path: str | Path) -> Path:
         """Write the views to one HTML file that stays interactive without a kernel."""
-        page = comparison_page(self.view, self._plan.summary)
+        page = comparison_page(self.view, self._live.plan.summary)
         write_atomically(Path(path), page.encode())
         return Path(path)
 
     def close(self) -> None:
         """End the process that computes, and take the dashboard out of the page."""
-        self._background.stop()
+        self._live.background.stop()
         self.view.root.close()
-
-    # Computing.
-
-    def _want(self, source: Source) -> None:
-        self._plan.failures.pop(source, None)
-        self._plan.wanted = source
-        self._show_choice()
-        self._worker.wake()
-
-    def _prepared(self, job: Job) -> tuple[Job, Methods]:
-        return (loaded_here(job) if isinstance(job, Source) else job), self._methods
-
-    def _take(self, job: Job, result: Any) -> None:
-        self._plan.take(job, result)
-        if isinstance(job, Source):
-            given = job.space is not None and not job.registered
-            self.controls.suit(result, may_standardize=not (given or result.body))
-            with self._silence():
-                self.view.show_samples(result)
-            expected, self._expected_selection = self._expected_selection, np.empty(0, int)
-            self.view.scatter.selection = expected[expected < result.n_samples]
-        self._plan.describe()
-
-    def _report(self, text: str, done: float | None) -> None:
-        job, jobs = self._worker.current, self._plan.jobs()
-        finished = 0 if isinstance(job, Source) else len(jobs) - len(self._plan.missing())
-        words = text if job is None else self._plan.words(job, text)
-        self.view.show_progress(words, min(1.0, (finished + (done or 0.0)) / max(1, len(jobs))))
-
-    # Showing.
-
-    def _show(self) -> None:
-        plan = self._plan
-        with self._silence():
-            self.view.show_panels(
-                plan.summary.n_samples if plan.summary else 0,
-                list(plan.states()),
-                self.controls.color_by.value,
-                plan.influence,
-            )
-        self.view.show_busy(self._worker.current is not None)
-        self.view.show_message(plan.summary, plan.notes, plan.wanted.name, self.message)
-        self.view.code.show(self.code)
-
-    def _show_choice(self) -> None:
-        """Let the controls show what is wanted, without wanting it again."""
-        with self._silence():
-            self.controls.choose(self._plan.wanted)
-
-    def _offer(self) -> None:
-        self.controls.offer(self._methods.projectors.names(), self._methods.back_projectors.names())
-
-    @contextmanager
-    def _silence(self) -> Iterator[None]:
-        """Change what is shown without taking it for a person's wish."""
-        before, self._quiet = self._quiet, True
-        try:
-            yield
-        finally:
-            self._quiet = before
-
-    # What a person does.
-
-    def _set_up(self, settings: Settings) -> None:
-        controls = self.controls
-        controls.ratio.value, controls.seed.value = settings.ratio, settings.random_state
-        controls.standardize.value = settings.standardize
-        controls.back_projector.value = settings.back_projector or ""
-        if settings.repeat > 1:
-            controls.n_seeds.value, controls.repeat.value = settings.repeat, True
-
-    def _connect(self) -> None:
-        controls, scatter = self.controls, self.view.scatter
-        controls.on_settings(self._on_settings)
-        controls.data.observe(self._on_data, "value")
-        controls.further.observe(self._on_data, "value")
-        controls.standardize.observe(self._on_standardize, "value")
-        controls.open.on_click(self._on_open)
-        controls.color_by.observe(lambda _: self._show(), "value")
-        scatter.observe(lambda _: self.view.code.show(self.code), "selection")
-        scatter.observe(self._on_moved, "moved")
-        scatter.on_msg(self._on_message)
-        self.view.cancel.on_click(lambda _: self.cancel())
-        self.view.again.on_click(lambda _: self.recompute())
-
-    def _on_settings(self) -> None:
-        self._plan.describe()
-        self._worker.wake()
-
-    def _on_data(self, change: Any) -> None:
-        first = self.controls.data.value
-        if not first or self._quiet:
-            return
-        further = self.controls.further.value if change["owner"] is self.controls.further else ()
-        self.open([first, *further])
-
-    def _on_open(self, _: Any) -> None:
-        if self.controls.path.value.strip():
-            self.open(self.controls.path.value, self.controls.label.value.strip() or None)
-
-    def _on_standardize(self, change: Any) -> None:
-        plan = self._plan
-        base = plan.source if plan.source is not None and self.message else plan.wanted
-        self._want(standardized(reread(base), change["new"]))
-
-    def _on_moved(self, change: Any) -> None:
-        if not self._quiet:
-            self._plan.moves.take(self._plan.runs, change["new"])
-            self._worker.wake()
-
-    def _on_message(self, scatter: Any, content: dict[str, Any], _: Any) -> None:
-        """Answer the person who wants the views as a file."""
-        if content.get("want") != "html":
-            return
-        try:
-            page = comparison_page(self.view, self._plan.summary).encode()
-        except Exception as error:  # the person must be told, whatever it is
-            scatter.send({"kind": "failure", "text": f"{type(error).__name__}: {error}"})
-            return
-        scatter.send({"kind": "html", "name": "comparison.html"}, buffers=[page])

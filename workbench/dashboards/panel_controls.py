@@ -11,14 +11,13 @@ import ipywidgets as widgets
 from workbench.dashboards.panels import (
     Panel,
     check_parameters,
+    offered,
     parameters_text,
     parsed_parameters,
 )
 from workbench.errors import WorkbenchError
 
 _FITTING = {"description_width": "initial"}
-# Chosen by the dashboard, so that nobody has to write them.
-_FIXED = ("n_components", "random_state", "metric")
 
 
 class PanelChooser:
@@ -47,28 +46,28 @@ class PanelChooser:
             value=panel.projector,
             description=f"Projector {letter}",
             style=_FITTING,
-            layout=widgets.Layout(width="170px"),
+            layout=widgets.Layout(width="165px"),
         )
         self.parameters = widgets.Text(
             value=parameters_text(panel.parameters),
             description=f"Parameters {letter}",
             continuous_update=False,
             style=_FITTING,
-            layout=widgets.Layout(flex="1 1 200px", min_width="170px"),
+            layout=widgets.Layout(flex="1 1 150px", min_width="150px", max_width="440px"),
         )
         self.two_step = widgets.Checkbox(
             value=panel.two_step,
             description=f"two-step {letter}",
             indent=False,
             tooltip="Project the control points only, and place the rest around them by RBFP",
-            layout=widgets.Layout(width="90px"),
+            layout=widgets.Layout(width="100px"),
         )
         self.optimized = widgets.Checkbox(
             value=panel.optimized,
             description=f"optimized {letter}",
             indent=False,
             tooltip=f"Optimize the embedding of panel {letter}",
-            layout=widgets.Layout(width="100px"),
+            layout=widgets.Layout(width="110px"),
         )
         self._problem = widgets.HTML(layout=widgets.Layout(display="none", flex="1 1 100%"))
         # What is known, written and used for each projector, so that none loses its own.
@@ -81,7 +80,7 @@ class PanelChooser:
         self.view = widgets.Box(
             [self.projector, self.parameters, self.two_step, self.optimized, self._problem],
             layout=widgets.Layout(
-                flex_flow="row wrap", align_items="center", flex="1 1 520px", grid_gap="0 8px"
+                flex_flow="row wrap", align_items="center", flex="1 1 100%", grid_gap="0 8px"
             ),
         )
 
@@ -132,9 +131,9 @@ class PanelChooser:
 
     def _hint(self) -> None:
         known = self._known.get(self.projector.value, {})
-        shown = {name: value for name, value in known.items() if name not in _FIXED}
-        self.parameters.placeholder = parameters_text(shown) if shown else ""
-        self.parameters.tooltip = f"Parameters: {parameters_text(shown)}" if shown else None
+        shown = parameters_text(offered(known))
+        self.parameters.placeholder = shown
+        self.parameters.tooltip = f"Parameters: {shown}" if shown else None
 
     def _read(self) -> None:
         """Take the parameters as they are written, or say what is wrong with them."""

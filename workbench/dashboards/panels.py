@@ -12,6 +12,7 @@ from workbench.errors import WorkbenchError
 #: Names of the panels.
 LETTERS = "ABCDEF"
 
+_CHOSEN = ("n_components", "random_state", "metric")
 _WANTED = "want for instance: perplexity=10, metric='euclidean'"
 
 
@@ -117,6 +118,11 @@ def parsed_parameters(text: str) -> dict[str, Any]:
     return read
 
 
+def offered(known: Mapping[str, Any]) -> dict[str, Any]:
+    """Leave out parameters that the dashboard chooses, so that nobody has to write them."""
+    return {name: value for name, value in known.items() if name not in _CHOSEN}
+
+
 def check_parameters(
     projector: str, parameters: Mapping[str, Any], known: Mapping[str, Any]
 ) -> None:
@@ -138,5 +144,5 @@ def check_parameters(
     """
     for name in parameters:
         if name not in known:
-            has = parameters_text(known) or "none"
+            has = parameters_text(offered(known)) or "none"
             raise WorkbenchError(f"{projector} has no parameter {name!r}; it has {has}")

@@ -100,7 +100,8 @@ def shepard_figure(titles: Sequence[str], results: Sequence[PanelResult | None])
             **axes,
         )
     for index, (_, result) in enumerate(shown):
-        figure.add_heatmap(**_density(result), **_axes(index))
+        if result is not None:
+            figure.add_heatmap(**_density(result), **_axes(index))
         row, column = divmod(index, columns)
         _place(figure, index, (row, rows), (column, columns), result)
     figure.update_layout(
@@ -112,9 +113,7 @@ def shepard_figure(titles: Sequence[str], results: Sequence[PanelResult | None])
     return figure
 
 
-def _density(result: PanelResult | None) -> dict[str, Any]:
-    if result is None:
-        return {"z": [], "showscale": False}
+def _density(result: PanelResult) -> dict[str, Any]:
     diagram = result.shepard
     counts = diagram.counts.T
     return {

@@ -132,7 +132,9 @@ def _row(
 
 def _spread(values: Sequence[float]) -> tuple[float, float]:
     """Give the mean and the standard deviation of a sample of seeds."""
-    return float(np.mean(values)), float(np.std(values, ddof=1))
+    mean, deviation = float(np.mean(values)), float(np.std(values, ddof=1))
+    # What equal values differ by is rounding.
+    return mean, deviation if deviation > 1e-9 * abs(mean) else 0.0
 
 
 def _best(values: Sequence[float | None], larger_is_better: bool) -> list[bool]:

@@ -38,7 +38,7 @@ class QualityView:
         self.choice = widgets.ToggleButtons(
             options=list(_FIGURES),
             tooltips=[words for words, _ in _FIGURES.values()],
-            style={"button_width": "130px"},
+            style={"button_width": "155px"},
         )
         self.figures = widgets.VBox([self.choice, self.curves])
         self._shown: tuple[list[str], list[PanelResult | None]] = ([], [])
