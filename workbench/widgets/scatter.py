@@ -32,8 +32,9 @@ class ScatterPanels(anywidget.AnyWidget):
     panels : list of dict
         One for each panel, six at most: ``title``, ``detail`` (a line of quality values),
         ``message`` (shown in the panel, for instance why it is empty) and ``state``: "ready",
-        "busy" or "failed"; also ``raw_detail`` and ``moved_detail``, which take the place of
-        ``detail`` before the optimization and while control points are moved.
+        "busy" or "failed"; also ``raw_detail``, which takes the place of ``detail`` before the
+        optimization. After control points are moved, the caption says that ``detail`` is from
+        before, until ``panels`` is set anew.
     points : array of shape (n_panels, n_samples, 2), float32
         Positions; NaN where a panel has none yet. The same samples travel from their old
         positions to new ones.

@@ -7,6 +7,7 @@ class Mover {
     this.view = view;
     this.controls = []; // of each panel: positions of its control points, or null if not moved
     this.placed = []; // of each panel: positions of all samples that follow from them, or null
+    this.isNew = []; // of each panel: whether its caption is from before it was moved, or moved back
     this.pressed = null;
     this.grip = null;
   }
@@ -33,6 +34,7 @@ class Mover {
     const same = (a, b) => (a && b ? sameNumbers(a, b) : !a && !b);
     const fresh = positions.some((ours, p) => !same(ours, this.controls[p]));
     this.grip = this.pressed = null;
+    this.isNew = positions.map((ours, p) => this.isNew[p] && same(ours, this.controls[p]));
     this.controls = positions;
     this.placed = positions.map((ours) => ours && placeAll(influence, ours));
     return fresh;
@@ -121,6 +123,7 @@ class Mover {
     positions[2 * control] += dx / cloud.scale;
     positions[2 * control + 1] -= dy / cloud.scale;
     const p = view.panels.indexOf(panel);
+    this.isNew[p] = true;
     this.controls[p] = positions;
     this.placed[p] = placeAll(view.state.influence, positions);
     const frame = frameOf(this.placed[p]);
@@ -139,6 +142,7 @@ class Mover {
   }
 
   reset() {
+    this.isNew = this.controls.map((ours, p) => (ours ? !this.isNew[p] : false));
     this.controls.fill(null);
     this.placed.fill(null);
     this.view.say("control points are back");

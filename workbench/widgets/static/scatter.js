@@ -58,6 +58,7 @@ class Scatter {
     const specs = this.model.get("panels");
     if (specs.length !== this.panels.length) return this.read();
     this.state.specs = specs;
+    this.mover.isNew.fill(false);
     this.describe();
   }
 
@@ -107,16 +108,14 @@ class Scatter {
   /** Which positions a panel shows, and what its caption says about them. */
   shown(p) {
     const { specs, points, raw, panels } = this.state;
-    const { detail = "", raw_detail: rawDetail, moved_detail: movedDetail } = specs[p];
-    const rest = (words) => (detail ? `${words}: ${detail}` : "");
-    if (this.mover.placed[p]) {
-      return { points: this.mover.placed[p], tag: "moved", detail: movedDetail ?? rest("before moving") };
-    }
+    const { detail = "", raw_detail: rawDetail } = specs[p];
+    const of = (words) => (detail && words ? `${words}: ${detail}` : detail);
+    const placed = this.mover.placed[p];
+    if (placed) return { points: placed, tag: "moved", detail: of(this.mover.isNew[p] ? "before moving" : "") };
+    const earlier = this.mover.isNew[p] ? "while moved" : "";
     const before = raw && this.stage === "raw" ? ofPanel(raw, p, panels) : null;
-    if (before && anyKnown(before)) {
-      return { points: before, tag: RAW, detail: rawDetail ?? rest("optimized") };
-    }
-    return { points: ofPanel(points, p, panels), tag: "", detail };
+    if (before && anyKnown(before)) return { points: before, tag: RAW, detail: rawDetail ?? of(earlier || "optimized") };
+    return { points: ofPanel(points, p, panels), tag: "", detail: of(earlier) };
   }
 
   describe() {
