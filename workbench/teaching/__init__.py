@@ -25,17 +25,20 @@ from workbench.teaching.exercises import (
     Question,
     Verdict,
 )
+from workbench.teaching.feedback import Feedback, Progress
 from workbench.teaching.lesson import Lesson
 
 __all__ = [
     "Array",
     "Choice",
     "Exercise",
+    "Feedback",
     "FunctionExercise",
     "Lesson",
     "Mistake",
     "Number",
     "OpenExercise",
+    "Progress",
     "Question",
     "Samples",
     "UnreadableAnswerError",

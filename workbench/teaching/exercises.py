@@ -258,7 +258,8 @@ def _call(function: Callable[..., Any], case: tuple[Any, ...]) -> Any:
         inspect.signature(function).bind(*case)
     except TypeError:
         raise UnreadableAnswerError(
-            f"The function must take {len(case)} arguments, as in the cell that you were given."
+            f"The function must take {len(case)} argument{'s' * (len(case) > 1)}, "
+            "as in the cell that you were given."
         ) from None
     except ValueError:
         pass  # a built-in function that does not tell what it takes
