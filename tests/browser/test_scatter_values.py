@@ -60,6 +60,17 @@ def test_the_legend_tells_numbers_and_which_end_is_better(mount: Callable) -> No
     assert np.allclose([float(found[1]), float(found[2])], [low, high], atol=0.006)
 
 
+def test_a_narrow_range_has_digits_enough(mount: Callable) -> None:
+    """Ends that differ in the fourth digit are told apart, and so are hovered values."""
+    page = mount(value_panels(0.999 + VALUES / 1000, value_best="high"))
+    text = page.locator(".wb-ramp").inner_text()
+    low, high = (float(number) for number in re.findall(r"\d\.\d+", text))
+    expected = np.quantile(0.999 + VALUES.astype(np.float32) / 1000, [0.02, 0.98])
+    assert np.allclose([low, high], expected, atol=1e-5)
+    page.mouse.move(*on_screen(page, 0, POINTS[37]))
+    assert page.locator(".wb-hover").inner_text() == "sample 37 · stress 0.99937"
+
+
 def test_a_few_extreme_values_do_not_stretch_the_range(mount: Callable) -> None:
     """One value a thousand times as large changes no other sample's colour."""
     plain = mount(value_panels())

@@ -102,7 +102,7 @@ def html_page(views: Views, *, title: str, text: str = "") -> str:
                 packed.append(_packed(view, modules))
                 places.append(_place(len(packed) - 1, view))
             else:
-                places.append(f'<div class="wb-place">{view.value}</div>')
+                places.append(f'<div class="wb-place wb-still">{view.value}</div>')
         lines.append(f'<div class="wb-row">{"".join(places)}</div>')
     with_figure = any(isinstance(view, FigureView) for row in rows for view in row)
     answers = {"plotly.js": _text(packed_library())} if with_figure else {}

@@ -4,8 +4,15 @@ const LEGEND_RADIUS = 4;
 const LEGEND_SIZE = 14;
 
 /** A number in a few digits. */
-function brief(value) {
-  return Number(value.toPrecision(3)).toString();
+function brief(value, digits = 3) {
+  return Number(value.toPrecision(digits)).toString();
+}
+
+/** How many digits tell values in a range apart: a hundredth of it should be seen. */
+function digitsFor({ low, high }) {
+  const largest = Math.max(Math.abs(low), Math.abs(high));
+  if (!(high > low)) return 3;
+  return Math.min(7, Math.max(3, Math.ceil(Math.log10(largest / (high - low))) + 2));
 }
 
 /**
@@ -23,13 +30,15 @@ function legendEntries(state, look, ratio) {
     entries.push({ ramp: ramp(TIME_STOPS[theme.name]), title: "", before: `first ${word}`, after: "last" });
   } else if (colorBy === "value") {
     const colours = ramp(VALUE_STOPS[theme.name]);
-    const ends = [`${range.below ? "≤ " : ""}${brief(range.low)}`, `${range.above ? "≥ " : ""}${brief(range.high)}`];
+    const digits = digitsFor(range);
+    const low = `${range.below ? "≤ " : ""}${brief(range.low, digits)}`;
+    const high = `${range.above ? "≥ " : ""}${brief(range.high, digits)}`;
     const [first, last] = valueBest === "low" ? ["better", "worse"] : ["worse", "better"];
     entries.push({
       ramp: valueBest === "low" ? colours : colours.reverse(),
       title: valueName,
-      before: `${first} ${ends[0]}`,
-      after: `${ends[1]} ${last}`,
+      before: `${first} ${low}`,
+      after: `${high} ${last}`,
     });
     if (range.unknown) entries.push({ mark: dot(swatches[STEPS]), text: "unknown" });
   }

@@ -295,10 +295,12 @@ class Scatter {
   }
 
   name(sample, panel) {
-    const { n, classes, names, word, isControl, values, colorBy, valueName } = this.state;
+    const { n, classes, names, word, isControl, values, range, colorBy, valueName } = this.state;
     const value = values?.[this.panels.indexOf(panel) * n + sample];
     const parts = [`${word} ${sample}`, names[classes[sample]]];
-    if (colorBy === "value" && panel) parts.push(`${valueName} ${Number.isFinite(value) ? brief(value) : "unknown"}`);
+    if (colorBy === "value" && panel) {
+      parts.push(`${valueName} ${Number.isFinite(value) ? brief(value, digitsFor(range)) : "unknown"}`);
+    }
     if (isControl[sample]) parts.push("control point");
     return parts.filter(Boolean).join(" · ");
   }

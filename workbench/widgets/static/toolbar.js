@@ -38,7 +38,7 @@ class Menu {
       event.preventDefault();
     }, { signal });
     const elsewhere = ({ target }) => this.node.contains(target) || this.open(false);
-    document.addEventListener("pointerdown", elsewhere, { signal });
+    document.addEventListener("pointerdown", elsewhere, { signal, capture: true });
     this.node.addEventListener("focusout", ({ relatedTarget }) => {
       if (relatedTarget && !this.node.contains(relatedTarget)) this.open(false);
     }, { signal });
