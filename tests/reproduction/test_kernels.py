@@ -21,14 +21,14 @@ from workbench.reproduction.notebooks import run_notebook, this_interpreter
 STATE = """
 import json, os, sys
 json.dump({"pid": os.getpid(), "executable": sys.executable, "note": os.environ.get("NOTE"),
-           "imported": "pandas" in sys.modules}, open(out, "w"))
+           "folder": os.getcwd(), "imported": "pandas" in sys.modules}, open(out, "w"))
 """
 FORKS = pytest.mark.skipif(not kernels.CAN_FORK, reason="kernels are not forked on this system")
 _ASK = """
 import sys, time
 from workbench.reproduction import kernels
 with kernels.forked_kernels():
-    print(kernels._server.fork(["-f", sys.argv[1]]), flush=True)
+    print(kernels._server.fork(["-f", sys.argv[1]], "/", {}), flush=True)
     time.sleep(600)
 """
 
@@ -84,18 +84,20 @@ def wait_until_ended(pid: int) -> None:
 
 @pytest.mark.parametrize("forked", [pytest.param(True, marks=FORKS), False], ids=["fork", "plain"])
 def test_each_notebook_has_a_kernel_of_this_interpreter(tmp_path, monkeypatch, forked):
-    """Two notebooks at once run in two processes, with this Python and these variables."""
+    """Two notebooks at once run in two processes, with this Python, variables and folder."""
     monkeypatch.setattr(notebooks, "CAN_FORK", forked)
-    monkeypatch.setenv("NOTE", "seen")
     path = notebook(tmp_path, STATE)
     with this_interpreter(), ThreadPoolExecutor(2) as pool:
+        monkeypatch.setenv("NOTE", "set after the kernels were prepared")
+        monkeypatch.chdir(tmp_path)
         folders = [tmp_path / "a", tmp_path / "b"]
         one, other = pool.map(lambda folder: state_of_kernel(path, folder), folders)
     assert one["pid"] != other["pid"]
     assert os.getpid() not in (one["pid"], other["pid"])
     for state in (one, other):
         assert state["executable"] == sys.executable
-        assert state["note"] == "seen"
+        assert state["note"] == "set after the kernels were prepared"
+        assert Path(state["folder"]) == tmp_path
         assert state["imported"] is forked
         wait_until_ended(state["pid"])
 

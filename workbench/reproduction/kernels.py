@@ -68,13 +68,13 @@ class _Server:
         )
         self._turn = threading.Lock()
 
-    def fork(self, arguments: list[str]) -> int:
-        """Start a kernel with the arguments of its command line; give its process id."""
+    def fork(self, arguments: list[str], folder: str, environment: dict[str, str]) -> int:
+        """Start a kernel as a process would be started with these; give its process id."""
         assert self._process.stdin is not None
         assert self._process.stdout is not None
         with self._turn:
             try:
-                self._process.stdin.write(json.dumps(arguments) + "\n")
+                self._process.stdin.write(json.dumps([arguments, folder, environment]) + "\n")
                 self._process.stdin.flush()
                 return int(self._process.stdout.readline())
             except (OSError, ValueError):
@@ -91,7 +91,7 @@ _server: _Server | None = None
 
 @contextmanager
 def forked_kernels() -> Iterator[None]:
-    """Let kernels of :data:`PROVISIONER` be started; they have this process's environment."""
+    """Let kernels of :data:`PROVISIONER` be started."""
     global _server  # Jupyter makes the provisioners and hands them nothing of ours
     _server = _Server()
     try:
@@ -104,7 +104,7 @@ def forked_kernels() -> Iterator[None]:
 class ForkedKernel(LocalProvisioner):
     """Start a kernel by way of the process of :func:`forked_kernels`."""
 
-    async def launch_kernel(self, cmd: list[str], **kwargs: Any) -> KernelConnectionInfo:  # noqa: ARG002 - Jupyter's signature
+    async def launch_kernel(self, cmd: list[str], **kwargs: Any) -> KernelConnectionInfo:
         """Fork a kernel.
 
         Parameters
@@ -112,7 +112,7 @@ class ForkedKernel(LocalProvisioner):
         cmd : list of str
             The command line of the kernel's specification: its options only.
         **kwargs : object
-            What a process would be started with.
+            What a process would be started with, of which ``cwd`` and ``env`` count.
 
         Raises
         ------
@@ -121,8 +121,10 @@ class ForkedKernel(LocalProvisioner):
         """
         if _server is None:
             raise WorkbenchError(f"kernels of {PROVISIONER} run figures and tables only")
+        self.cwd = str(kwargs.get("cwd") or os.getcwd())
+        environment = dict(kwargs.get("env") or os.environ)
         # Its own group, as soon as it is there.
-        self.pid = self.pgid = _server.fork(cmd)
+        self.pid = self.pgid = _server.fork(cmd, self.cwd, environment)
         self.process = _Forked(self.pid)  # type: ignore[assignment]  # as far as it is used
         return self.connection_info
 
@@ -176,13 +178,16 @@ def _serve() -> None:
     for line in sys.stdin:
         pid = os.fork()
         if pid == 0:
-            _become_kernel(json.loads(line))
+            _become_kernel(*json.loads(line))
         print(pid, flush=True)  # noqa: T201 - read by fork
 
 
-def _become_kernel(arguments: list[str]) -> None:
+def _become_kernel(arguments: list[str], folder: str, environment: dict[str, str]) -> None:
     """Turn a copy of the serving process into a kernel."""
     os.setsid()
+    os.chdir(folder)
+    os.environ.clear()
+    os.environ.update(environment)
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     with open(os.devnull) as nothing:
         os.dup2(nothing.fileno(), 0)
