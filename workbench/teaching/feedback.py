@@ -87,7 +87,7 @@ class Feedback:
         return f"{sign} {word} ({self.key}): {self.verdict.text}\n{self.progress.sentence}{code}"
 
     def _repr_html_(self) -> str:
-        sign, word, color = _LOOKS[self.state]
+        sign, word, _ = _LOOKS[self.state]
         code = (
             '<details><summary style="cursor:pointer">The lesson’s solution</summary>'
             f'<pre style="overflow-x:auto;margin:.4em 0">{html.escape(self.code)}</pre></details>'
@@ -96,7 +96,7 @@ class Feedback:
         )
         return _box(
             self.state,
-            f'<strong><span aria-hidden="true" style="color:{color}">{sign}</span> {word}</strong>'
+            f'<strong><span aria-hidden="true">{sign}</span> {word}</strong>'
             f' · <code>{html.escape(self.key)}</code><div style="margin:.35em 0">'
             f"{_as_html(self.verdict.text)}</div>{code}"
             f'<div style="font-size:.9em;opacity:.8">{self.progress.sentence}</div>',

@@ -1,4 +1,8 @@
-"""Figures that only lessons draw, from finished numbers."""
+"""Figures of lessons, from finished numbers, for pages in the light and in the dark theme.
+
+A notebook shows a figure as it was made, whatever the theme of the page. So these have no
+ground of their own, and their texts and lines are of a grey that shows on white and on black.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +20,39 @@ from workbench.figures.style import TEMPLATE, VERMILLION
 from workbench.quality.shepard_diagram import ShepardDiagram
 from workbench.spaces import Space
 
+#: Contrast of about 4 : 1 to the grounds of both themes.
+_TEXT = "#7B7F86"
+_GRID = "rgba(128, 128, 128, 0.25)"
+_CLEAR = "rgba(0, 0, 0, 0)"
+
+#: More pairs, more colour, on any ground.
+_PAIRS = [[0.0, "rgba(0, 114, 178, 0.12)"], [1.0, "rgba(0, 114, 178, 1)"]]
+
 _NONE = np.empty(0, dtype=np.intp)
+
+
+def for_both_themes(figure: go.Figure) -> go.Figure:
+    """Let a figure show on the ground of the page, be it light or dark.
+
+    Parameters
+    ----------
+    figure : plotly.graph_objects.Figure
+        A figure in the package's style; it is changed.
+
+    Returns
+    -------
+    plotly.graph_objects.Figure
+        The same.
+
+    Examples
+    --------
+    >>> for_both_themes(go.Figure()).layout.paper_bgcolor
+    'rgba(0, 0, 0, 0)'
+    """
+    figure.update_layout(paper_bgcolor=_CLEAR, plot_bgcolor=_CLEAR, font_color=_TEXT)
+    figure.update_annotations(font_color=_TEXT)
+    axes = {"gridcolor": _GRID, "zerolinecolor": _GRID}
+    return figure.update_xaxes(axes).update_yaxes(axes)
 
 
 def maps_side_by_side(
@@ -50,7 +86,7 @@ def maps_side_by_side(
         figure.for_each_trace(
             lambda trace: trace.update(showlegend=False), {"name": "control point"}
         )
-    return figure
+    return for_both_themes(figure)
 
 
 def curves(
@@ -81,7 +117,7 @@ def curves(
     if logarithmic:
         figure.update_xaxes(type="log", dtick=1)
         figure.update_yaxes(type="log", dtick=1, rangemode="normal")
-    return figure
+    return for_both_themes(figure)
 
 
 def shepard_panels(diagrams: Mapping[str, ShepardDiagram]) -> go.Figure:
@@ -118,8 +154,7 @@ def shepard_panels(diagrams: Mapping[str, ShepardDiagram]) -> go.Figure:
                 x=diagram.data_edges,
                 y=diagram.embedding_edges,
                 z=np.where(diagram.counts == 0, np.nan, diagram.counts).T,
-                colorscale="Blues",
-                zmin=-0.25 * diagram.counts.max(),
+                colorscale=_PAIRS,
                 showscale=False,
                 hovertemplate="in the data %{x:.2f}<br>on the map %{y:.2f}<br>"
                 "%{z} pairs<extra></extra>",
@@ -143,4 +178,5 @@ def shepard_panels(diagrams: Mapping[str, ShepardDiagram]) -> go.Figure:
     figure.update_xaxes(title_text="distance in the data")
     figure.update_yaxes(title_text="distance on the map", col=1)
     figure.update_annotations(font_size=13)
-    return figure.update_layout(template=TEMPLATE, height=420, margin={"t": 84}, legend={"y": 1.12})
+    figure.update_layout(template=TEMPLATE, height=420, margin={"t": 84}, legend={"y": 1.12})
+    return for_both_themes(figure)

@@ -9,6 +9,7 @@ from typing import Any
 
 import workbench.teaching
 from workbench.errors import WorkbenchError
+from workbench.teaching.cell_errors import tell_errors
 from workbench.teaching.exercises import Question, Verdict
 from workbench.teaching.feedback import Feedback, Progress
 
@@ -44,6 +45,7 @@ class Lesson:
         self.solutions = solutions
         self._exercises = {exercise.key: exercise for exercise in _exercises(number)}
         self._verdicts: dict[str, Verdict] = {}
+        tell_errors(self._stopped)
 
     def check(self, key: str, answer: Any = ..., **given: Any) -> Feedback:
         """Check the answer of an exercise.
@@ -71,9 +73,7 @@ class Lesson:
             If the lesson has no such exercise.
         """
         exercise = self._exercise(key)
-        verdict, code = self._judged(exercise, answer, given)
-        self._verdicts[key] = verdict
-        return Feedback(key, verdict, self.progress(), code)
+        return self._told(key, *self._judged(exercise, answer, given))
 
     def progress(self) -> Progress:
         """Count the exercises that are solved."""
@@ -83,6 +83,14 @@ class Lesson:
                 for key in self._exercises
             )
         )
+
+    def _told(self, key: str, verdict: Verdict, code: str = "") -> Feedback:
+        self._verdicts[key] = verdict
+        return Feedback(key, verdict, self.progress(), code)
+
+    def _stopped(self, key: str, text: str) -> Feedback:
+        """Tell of an exercise whose cell did not come to its check."""
+        return self._told(key, Verdict("unreadable", text))
 
     def _exercise(self, key: str) -> Question:
         if key not in self._exercises:
