@@ -91,6 +91,41 @@ def test_escape_during_a_drag_puts_all_back(mount: Callable) -> None:
     assert page.evaluate("mounted[0].model.saved") == 0
 
 
+@pytest.mark.parametrize(
+    "event",
+    [
+        "mounted[0].model.set('moved', new DataView(new ArrayBuffer(0)))",
+        "mounted[0].model.set('values', new DataView(new Float32Array(10).buffer))",
+        "mounted[0].model.set('panels', [{ title: 'A', detail: 'measured' }, { title: 'B' }])",
+    ],
+    ids=["echo of moved", "values", "panels"],
+)
+def test_news_from_python_do_not_end_a_drag(mount: Callable, event: str) -> None:
+    """What is measured after the last drop may arrive during the next drag."""
+    page = mount(movable_panels(color_by="value", values=np.ones((2, 5))))
+    choose(page, MOVE)
+    drag(page, 0, POINTS[4], [0.6, 0.9], drop=False)
+    page.evaluate(event)
+    page.mouse.move(*on_screen(page, 0, [0.5, 0.9]))
+    page.mouse.up()
+    np.testing.assert_allclose(moved_in(page)[0, 1], [0.5, 0.9], atol=0.004)
+
+
+def test_a_change_of_width_gives_a_drag_up(mount: Callable) -> None:
+    """Pixels mean other positions then; nothing is moved, and the next drag works."""
+    page = mount(movable_panels())
+    choose(page, MOVE)
+    drag(page, 0, POINTS[4], [0.6, 0.9], drop=False)
+    before = page.evaluate("document.querySelector('.wb-base').width")
+    page.evaluate("mounted[0].el.style.width = '600px'")
+    page.wait_for_function("(w) => document.querySelector('.wb-base').width !== w", arg=before)
+    page.mouse.move(*on_screen(page, 0, [0.5, 0.9]))
+    page.mouse.up()
+    np.testing.assert_allclose(shown(page, 0), POINTS, atol=1e-6)
+    drag(page, 0, POINTS[4], [0.5, 0.9])
+    np.testing.assert_allclose(moved_in(page)[0, 1], [0.5, 0.9], atol=0.005)
+
+
 def test_reset_brings_the_positions_back(mount: Callable) -> None:
     """After a reset all panels show their own positions and the trait is empty."""
     page = mount(movable_panels())

@@ -2,6 +2,16 @@
 
 const ARROWS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown", "Home", "End"];
 
+const HINTS = {
+  select:
+    "Drag or click to select, Shift adds, Escape clears. In a focused panel the arrow keys move " +
+    "from sample to sample, up and down by ten; Enter or Space selects.",
+  move:
+    "Drag a cross: the other samples follow. In a focused panel the arrow keys lead from one " +
+    "control point to the next; Enter picks it up, the arrow keys move it (Shift: by one pixel), " +
+    "Enter drops it, Escape puts it back.",
+};
+
 class Input {
   constructor(view) {
     this.view = view;

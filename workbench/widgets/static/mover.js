@@ -33,7 +33,7 @@ class Mover {
     });
     const same = (a, b) => (a && b ? sameNumbers(a, b) : !a && !b);
     const fresh = positions.some((ours, p) => !same(ours, this.controls[p]));
-    this.grip = this.pressed = null;
+    if (fresh) this.grip = this.pressed = null;
     this.isNew = positions.map((ours, p) => this.isNew[p] && same(ours, this.controls[p]));
     this.controls = positions;
     this.placed = positions.map((ours) => ours && placeAll(influence, ours));

@@ -3,20 +3,7 @@
 const NARROWEST = 230;
 const MOST_COLUMNS = 4;
 const CRISP = 5000; // from this many samples on, soft rims cannot be seen
-const DATA = [
-  "points", "raw_points", "classes", "class_names", "color_by", "values", "value_name", "value_best",
-  "control_points", "influence", "movable", "sample_word", "transition", "offers_html",
-];
 const RAW = "before optimization";
-const HINTS = {
-  select:
-    "Drag or click to select, Shift adds, Escape clears. In a focused panel the arrow keys move " +
-    "from sample to sample, up and down by ten; Enter or Space selects.",
-  move:
-    "Drag a cross: the other samples follow. In a focused panel the arrow keys lead from one " +
-    "control point to the next; Enter picks it up, the arrow keys move it (Shift: by one pixel), " +
-    "Enter drops it, Escape puts it back.",
-};
 
 class Scatter {
   constructor(model, root, signal) {
@@ -31,7 +18,7 @@ class Scatter {
     this.build();
     this.read();
     onTraits(model, ["panels"], () => this.readPanels(), signal);
-    onTraits(model, DATA, () => this.read(), signal);
+    onTraits(model, [...PLACES, ...LOOKS], () => this.read(), signal);
     onTraits(model, ["moved"], () => this.readMoved(), signal);
     onTraits(model, ["selection"], () => this.readSelection(), signal);
     onHover(model, (sample) => this.follow(sample), signal);
@@ -64,20 +51,28 @@ class Scatter {
 
   read() {
     const before = this.state;
-    const state = readState(this.model);
-    this.state = state;
+    this.state = readState(this.model);
+    // New colours alone must not disturb who is dragging.
+    const changed = PLACES.some((name) => before?.views[name] !== this.state.views[name]);
+    if (changed || before.panels !== this.state.panels) this.readPlaces(before);
+    else if (before.values && this.state.values && !sameNumbers(before.values, this.state.values)) {
+      this.valuesPrecedeMoving = false;
+    }
+    if (!this.state.canMove && this.mode === "move") this.setMode("rectangle");
+    this.describe();
+    this.restyle();
+  }
+
+  readPlaces(before) {
+    const { state } = this;
     this.input.abandon();
     this.matchPanels();
     const sameSamples = before?.n === state.n && before.panels === state.panels;
     if (!sameSamples) this.hovered = -1;
-    const newValues = before?.values && state.values && !sameNumbers(before.values, state.values);
-    if (newValues) this.valuesPrecedeMoving = false;
     this.chosen = this.readChosen();
-    if (!state.canMove && this.mode === "move") this.setMode("rectangle");
+    this.valuesPrecedeMoving = false;
     this.mover.read(readMoved(this.model, state), state);
     this.aim(sameSamples);
-    this.describe();
-    this.restyle();
   }
 
   matchPanels() {
@@ -195,6 +190,7 @@ class Scatter {
   resize(force = false) {
     const width = this.root.clientWidth;
     if (!width || !this.panels.length || (!force && width === this.width)) return;
+    if (width !== this.width) this.input.abandon(); // its pixels are others now
     this.width = width;
     const fitting = Math.max(1, Math.min(MOST_COLUMNS, Math.floor(width / NARROWEST)));
     // As many rows as needed, then as few columns as fill them.

@@ -1,5 +1,11 @@
 // The widget's traits, read at once into one plain object whose arrays fit each other.
 
+const PLACES = ["points", "raw_points", "control_points", "influence"];
+const LOOKS = [
+  "classes", "class_names", "color_by", "values", "value_name", "value_best", "movable", "sample_word",
+  "transition", "offers_html",
+];
+
 /** Read the traits; what does not fit the points, or not yet, is left out. */
 function readState(model) {
   const specs = model.get("panels");
@@ -16,6 +22,7 @@ function readState(model) {
   for (const i of controls) isControl[i] = 1;
   const influence = k > 0 ? floats("influence", n * k) : null;
   const state = {
+    views: Object.fromEntries(PLACES.map((name) => [name, model.get(name)])), // to see what is new
     specs, panels, points, n, controls, isControl, influence,
     raw: n > 0 ? floats("raw_points", 2 * panels * n) : null,
     canMove: Boolean(model.get("movable") && influence),
