@@ -61,6 +61,8 @@ def describe_dashboard(path: Path) -> Dashboard:
 class DashboardServer(Voila):
     """Voila that shows an index of dashboards and loads nothing from the network."""
 
+    template_paths: list[str]
+
     def setup_template_dirs(self) -> None:
         """Let our templates come before Voila's."""
         super().setup_template_dirs()
