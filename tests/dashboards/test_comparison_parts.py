@@ -157,6 +157,8 @@ def test_moved_control_points_are_measured(iris: ProjectionComparison) -> None:
     assert result.quality == expected
     assert result.quality != before["B"].quality
     assert iris.results["A"] is before["A"]
+    detail = iris.view.scatter.panels[1]["detail"]
+    assert detail.endswith(f"error {result.error:.3g}")
     assert "B · pca, optimized (moved)" in iris.view.quality.table.value
     np.testing.assert_array_equal(iris.moved["B"], places)
     scatter.moved = []

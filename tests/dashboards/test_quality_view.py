@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
-from workbench.dashboards.jobs import PanelResult
-from workbench.dashboards.quality_figures import preservation_figure
+from workbench.dashboards.jobs import PanelResult, Values
+from workbench.dashboards.quality_figures import preservation_figure, shepard_figure
 from workbench.dashboards.quality_table import quality_table
 from workbench.dashboards.quality_view import QualityView
 from workbench.quality.shepard_diagram import shepard_diagram
@@ -78,3 +79,45 @@ def test_the_figure_is_described_for_those_who_cannot_see_it() -> None:
     view = QualityView()
     view.show(["A", "B"], [None, result(1.0, 0.7)])
     assert view.curves.description == "Neighbourhood preservation against k of B"
+
+
+def values(stress: float, trustworthiness: float) -> Values:
+    return Values(EmbeddingQuality(stress, 0.1, trustworthiness, 0.9, 0.8, 7), 0.5)
+
+
+def test_with_seeds_the_means_decide_what_is_best() -> None:
+    """A lucky seed is not praised, and rounding is no spread."""
+    seeds = [[values(4.0, 0.5)], [values(1.0, 0.5)]]
+    table = quality_table(["A", "B"], [result(1.0, 0.7), result(2.0, 0.7 + 1e-16)], seeds)
+    assert row(table, "stress ") == [
+        "1<small>2.5 ± 2.1</small>",
+        " class=best>2<small>1.5 ± 0.71</small>",
+    ]
+    assert row(table, "continuity")[0].endswith("0.9<small>0.9 ± 0</small>")
+    assert "mean ± standard deviation of 2 seeds" in table
+
+
+def test_values_are_compared_until_all_panels_are_repeated() -> None:
+    """A mean is not set against a single value."""
+    table = quality_table(
+        ["A", "B"], [result(1.0, 0.7), result(2.0, 0.6)], [[values(9.0, 0.5)], []]
+    )
+    assert row(table, "stress ")[0].startswith(" class=best>1")
+
+
+@pytest.mark.parametrize("count", [1, 3, 6])
+def test_every_panel_has_a_shepard_diagram_in_a_place_of_its_own(count: int) -> None:
+    """None lies over another; a panel without a result has no density but keeps its colour."""
+    results: list[PanelResult | None] = [result(1.0, 0.7)] * count
+    results[-1] = None
+    figure = shepard_figure(list("ABCDEF"[:count]), results)
+    assert [trace.type for trace in figure.data] == ["scatter"] * count + ["heatmap"] * (count - 1)
+    places = {
+        (figure.layout[f"xaxis{i or ''}"].domain, figure.layout[f"yaxis{i or ''}"].domain)
+        for i in [0, *range(2, count + 1)]
+    }
+    assert len(places) == count
+    for first in places:
+        for other in places - {first}:
+            apart = [a[1] <= b[0] or b[1] <= a[0] for a, b in zip(first, other, strict=True)]
+            assert any(apart)
