@@ -55,8 +55,8 @@ def departure(places: NDArray[np.float64], others: NDArray[np.float64]) -> float
 
     Examples
     --------
-    >>> departure(np.zeros((2, 2)), np.array([[3.0, 4.0], [0.0, 0.0]])) ** 2
-    12.5
+    >>> departure(np.zeros((2, 2)), np.array([[3.0, 4.0], [0.0, 5.0]]))
+    5.0
     """
     return float(np.sqrt(((places - others) ** 2).sum(axis=1).mean()))
 

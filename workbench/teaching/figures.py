@@ -7,6 +7,7 @@ ground of their own, and their texts and lines are of a grey that shows on white
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import plotly.graph_objects as go
@@ -21,7 +22,7 @@ from workbench.quality.shepard_diagram import ShepardDiagram
 from workbench.spaces import Space
 
 #: Contrast of about 4 : 1 to the grounds of both themes.
-_TEXT = "#7B7F86"
+_TEXT = "#75797F"
 _GRID = "rgba(128, 128, 128, 0.25)"
 _CLEAR = "rgba(0, 0, 0, 0)"
 
@@ -51,8 +52,15 @@ def for_both_themes(figure: go.Figure) -> go.Figure:
     """
     figure.update_layout(paper_bgcolor=_CLEAR, plot_bgcolor=_CLEAR, font_color=_TEXT)
     figure.update_annotations(font_color=_TEXT)
+    # Dots that are seen through are pale on white and dim on black.
+    figure.update_traces(marker_opacity=1.0, selector=_is_dotted)
+    figure.update_traces(marker_line_color=_TEXT, selector={"marker.symbol": "x"})
     axes = {"gridcolor": _GRID, "zerolinecolor": _GRID}
     return figure.update_xaxes(axes).update_yaxes(axes)
+
+
+def _is_dotted(trace: Any) -> bool:
+    return trace.type in ("scatter", "scattergl") and "markers" in (trace.mode or "")
 
 
 def maps_side_by_side(
