@@ -104,6 +104,17 @@ def test_what_needs_python_is_not_offered(opened: Callable) -> None:
     ]
 
 
+def test_a_page_saves_pictures_and_tables(opened: Callable) -> None:
+    """Without a kernel, and under the page's own rules, both downloads come."""
+    page = opened(panels())
+    for name, ending in (("Picture (PNG)", ".png"), ("Table (CSV)", ".csv")):
+        page.get_by_role("button", name="Save").click()
+        with page.expect_download() as waiting:
+            page.get_by_role("button", name=name).click()
+        assert waiting.value.suggested_filename == f"projections{ending}"
+        assert waiting.value.path().stat().st_size > 100
+
+
 def test_hidden_views_are_left_out(opened: Callable) -> None:
     """A view that the dashboard hides is not in the page."""
     hidden = details()

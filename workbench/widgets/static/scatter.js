@@ -3,7 +3,6 @@
 const NARROWEST = 230;
 const MOST_COLUMNS = 4;
 const CRISP = 5000; // from this many samples on, soft rims cannot be seen
-const RAW = "before optimization";
 
 class Scatter {
   constructor(model, root, signal) {
@@ -68,7 +67,7 @@ class Scatter {
     this.input.abandon();
     this.matchPanels();
     const sameSamples = before?.n === state.n && before.panels === state.panels;
-    if (!sameSamples) this.hovered = -1;
+    if (!sameSamples) [this.hovered, this.stage] = [-1, "final"];
     this.chosen = this.readChosen();
     this.valuesPrecedeMoving = false;
     this.mover.read(readMoved(this.model, state), state);
@@ -100,17 +99,8 @@ class Scatter {
 
   // Showing.
 
-  /** Which positions a panel shows, and what its caption says about them. */
   shown(p) {
-    const { specs, points, raw, panels } = this.state;
-    const { detail = "", raw_detail: rawDetail } = specs[p];
-    const of = (words) => (detail && words ? `${words}: ${detail}` : detail);
-    const placed = this.mover.placed[p];
-    if (placed) return { points: placed, tag: "moved", detail: of(this.mover.isNew[p] ? "before moving" : "") };
-    const earlier = this.mover.isNew[p] ? "while moved" : "";
-    const before = raw && this.stage === "raw" ? ofPanel(raw, p, panels) : null;
-    if (before && anyKnown(before)) return { points: before, tag: RAW, detail: rawDetail ?? of(earlier || "optimized") };
-    return { points: ofPanel(points, p, panels), tag: "", detail: of(earlier) };
+    return shownIn(p, this);
   }
 
   describe() {
@@ -222,13 +212,8 @@ class Scatter {
       const members = [...this.state.classes.keys()].filter((i) => this.state.classes[i] === group);
       this.select(adding ? [...this.chosen, ...members] : members);
     });
-    if (this.state.colorBy === "value" && this.outdated) this.legend.append(element("span", { class: "wb-hint", text: this.outdated }));
-  }
-
-  /** What the coloured values are of, if they are not of the positions shown. */
-  get outdated() {
-    if (this.stage === "raw" && this.panels.some((_, p) => this.shown(p).tag === RAW)) return "values of the optimized positions";
-    return this.valuesPrecedeMoving ? "values from before moving" : "";
+    const remark = remarkOnValues(this);
+    if (remark) this.legend.append(element("span", { class: "wb-hint", text: remark }));
   }
 
   /** Say something to a screen reader. */
