@@ -139,8 +139,8 @@ WRONG = {
         lambda departures, curve, limit: departures[curve][_first_below(departures, curve, limit)],
         "This is the departure",
     ),
-    "the whole map": ("least-stress", lambda **_: "t-SNE", "for each of the three"),
-    "the other copy": ("least-stress", lambda **_: "RBFP", "for each of the three"),
+    "the whole map": ("least-stress", lambda **_: "t-SNE", "of the three"),
+    "the other copy": ("least-stress", lambda **_: "RBFP", "of the three"),
 }
 
 

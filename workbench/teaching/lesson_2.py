@@ -170,11 +170,11 @@ EXERCISES: Sequence[Question] = (
     ),
     OpenExercise(
         key="fool-eq-4.1",
-        task="Find a factor for the t-SNE map with which Eq. 4.1 gives it less stress than the "
-        "PCA map has.",
+        task="Find a factor for the worse map with which Eq. 4.1 gives it less stress than the "
+        "other has.",
         solution=winning_factor,
         praise="Yes. No point has moved relative to another, the picture is the same, and it has "
-        "overtaken PCA. A number that can be had so cheaply tells nothing about the picture.",
+        "overtaken the other. A number that can be had so cheaply tells nothing about the picture.",
         hint="Try some factors.",
         kind=Number(),
         fault=_not_winning,

@@ -261,10 +261,10 @@ EXERCISES: Sequence[Question] = (
         key="least-stress",
         task='Assign the name of one of the three maps to `answer`: "t-SNE", "RBFP" or "LAMP".',
         solution=least_stress,
-        praise="Yes: a map around few points of another one need not be a worse copy of it. LAMP "
-        "moves each sample by a map that keeps lengths, so it keeps distances where t-SNE does "
-        "not care for them. What it loses are neighbours.",
-        hint="Compute `scale_normalized_stress(wine.distances, places)` for each of the three.",
+        praise="Yes. A map around a few points of another one need not be the worse copy of it. "
+        "The table below has all values.",
+        hint="Compute `embedding_quality(wine.distances, places).scale_normalized_stress` for each "
+        "of the three.",
         kind=Choice(("t-SNE", "RBFP", "LAMP")),
     ),
 )
