@@ -6,15 +6,24 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from workbench.dashboards.compare import ProjectionComparison, compare_projections
+    from workbench.dashboards.explain_optimizer import OptimizerExplanation, explain_optimizer
     from workbench.dashboards.panels import Panel
 
 _HOMES = {
+    "OptimizerExplanation": "explain_optimizer",
     "Panel": "panels",
     "ProjectionComparison": "compare",
     "compare_projections": "compare",
+    "explain_optimizer": "explain_optimizer",
 }
 
-__all__ = ["Panel", "ProjectionComparison", "compare_projections"]
+__all__ = [
+    "OptimizerExplanation",
+    "Panel",
+    "ProjectionComparison",
+    "compare_projections",
+    "explain_optimizer",
+]
 
 
 # The process that computes beside the kernel imports this package too, and must not wait
