@@ -15,6 +15,7 @@ from workbench.dashboards.code_cell import comparison_code
 from workbench.dashboards.comparison_view import ComparisonView
 from workbench.dashboards.controls import Controls
 from workbench.dashboards.exports import comparison_page
+from workbench.dashboards.home import Home
 from workbench.dashboards.jobs import Job, Methods
 from workbench.dashboards.panels import Panel
 from workbench.dashboards.plan import Plan
@@ -211,18 +212,18 @@ class LiveComparison:
             controls.n_seeds.value, controls.repeat.value = settings.repeat, True
 
     def _connect(self) -> None:
-        controls, scatter = self.controls, self.view.scatter
-        controls.on_settings(self._on_settings)
-        controls.data.observe(self._on_data, "value")
-        controls.further.observe(self._on_data, "value")
-        controls.standardize.observe(self._on_standardize, "value")
-        controls.open.on_click(self._on_open)
-        controls.color_by.observe(lambda _: self._show(), "value")
-        scatter.observe(lambda _: self.view.code.show(self.code), "selection")
-        scatter.observe(self._on_moved, "moved")
-        scatter.on_msg(self._on_message)
-        self.view.cancel.on_click(lambda _: self.worker.cancel())
-        self.view.again.on_click(lambda _: self.recompute())
+        controls, scatter, here = self.controls, self.view.scatter, Home().here
+        controls.on_settings(here(self._on_settings))
+        controls.data.observe(here(self._on_data), "value")
+        controls.further.observe(here(self._on_data), "value")
+        controls.standardize.observe(here(self._on_standardize), "value")
+        controls.open.on_click(here(self._on_open))
+        controls.color_by.observe(here(lambda _: self._show()), "value")
+        scatter.observe(here(lambda _: self.view.code.show(self.code)), "selection")
+        scatter.observe(here(self._on_moved), "moved")
+        scatter.on_msg(here(self._on_message))
+        self.view.cancel.on_click(here(lambda _: self.worker.cancel()))
+        self.view.again.on_click(here(lambda _: self.recompute()))
 
     def _on_settings(self) -> None:
         self.plan.describe()

@@ -7,6 +7,7 @@ from collections.abc import Callable, Hashable, Sequence
 from typing import Any, Generic, TypeVar
 
 from workbench.dashboards.background import Background, Report, Stopped
+from workbench.dashboards.home import running_loop
 from workbench.errors import WorkbenchError
 
 Job = TypeVar("Job", bound=Hashable)
@@ -72,7 +73,7 @@ class Worker(Generic[Job]):
         if self._working:
             return
         self._working = True
-        loop = _running_loop()
+        loop = running_loop()
         if loop is None:
             asyncio.run(self._work())
         else:
@@ -113,10 +114,3 @@ class Worker(Generic[Job]):
             self._failures[job] = str(error)
         except Exception as error:  # told in its place: nobody awaits the task
             self._failures[job] = f"{type(error).__name__}: {error}"
-
-
-def _running_loop() -> asyncio.AbstractEventLoop | None:
-    try:
-        return asyncio.get_running_loop()
-    except RuntimeError:
-        return None
