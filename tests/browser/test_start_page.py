@@ -12,6 +12,7 @@ import pytest
 
 from tests.browser.chromium import Visit
 from tests.browser.lab import Lab, running_lab
+from workbench.cli.dashboards import DASHBOARDS
 from workbench.reproduction.items import NOTEBOOKS
 from workbench.resources import bundled
 
@@ -25,10 +26,16 @@ def linked() -> list[str]:
 
 
 def test_every_notebook_can_be_reached() -> None:
-    """Each notebook that is carried along has one link, and each link has its notebook."""
+    """Figures, lessons and dashboards have one link each, and each link has its notebook."""
     folder = bundled("notebooks")
-    there = {path.relative_to(folder).as_posix() for path in folder.rglob("*.ipynb")}
-    assert sorted(linked()) == sorted(there - {START})
+    links = linked()
+    assert len(links) == len(set(links))
+    assert [link for link in links if not (folder / link).is_file()] == []
+    lessons = [f"lessons/{path.name}" for path in sorted((folder / "lessons").glob("*.ipynb"))]
+    assert [link for link in links if link.startswith("lessons/")] == lessons
+    wanted = {f"{notebook.name}.ipynb" for notebook in NOTEBOOKS}
+    wanted |= {f"{name}.ipynb" for name in DASHBOARDS}
+    assert wanted <= set(links)
 
 
 def test_notebooks_of_figures_are_in_the_order_of_the_theses() -> None:

@@ -17,6 +17,7 @@ from types import SimpleNamespace
 import pytest
 
 from workbench.cli import serve
+from workbench.cli.dashboards import DASHBOARDS, describe_dashboard
 from workbench.resources import bundled
 
 try:
@@ -25,7 +26,6 @@ except ImportError:  # without the extra 'app'
     dashboard_server = None
 
 needs_voila = pytest.mark.skipif(dashboard_server is None, reason="needs the extra 'app'")
-NOTEBOOKS = dashboard_server.DASHBOARDS if dashboard_server else ()
 
 
 @pytest.fixture(scope="module")
@@ -105,7 +105,7 @@ def test_app_wants_a_token(app, free_port):
             assert "/login" in answer.url
     with urllib.request.urlopen(app) as answer:
         page = answer.read().decode()
-    for name in NOTEBOOKS:
+    for name in DASHBOARDS:
         assert f'href="/voila/render/{name}.ipynb"' in page
 
 
@@ -123,11 +123,10 @@ def test_app_serves_the_dashboards_and_nothing_else(app):
         assert "Traceback" not in page
 
 
-@needs_voila
-@pytest.mark.parametrize("name", NOTEBOOKS)
+@pytest.mark.parametrize("name", DASHBOARDS)
 def test_each_dashboard_has_a_heading_and_a_sentence(name):
     """The index shows what the notebook says of itself."""
-    described = dashboard_server.describe_dashboard(bundled("notebooks") / f"{name}.ipynb")
+    described = describe_dashboard(bundled("notebooks") / f"{name}.ipynb")
     assert described.title
     assert described.summary.endswith(".")
 

@@ -5,57 +5,16 @@ from __future__ import annotations
 import shutil
 import tempfile
 import webbrowser
-from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-import nbformat
 from voila.app import Voila
 
+from workbench.cli.dashboards import DASHBOARDS, describe_dashboard
 from workbench.resources import bundled
 
-#: Notebooks that are dashboards, in the order of the index.
-DASHBOARDS = ("compare_projections",)
-
 _TEMPLATES = Path(__file__).with_name("templates")
-
-
-@dataclass(frozen=True)
-class Dashboard:
-    """A dashboard as the index shows it.
-
-    Attributes
-    ----------
-    file : str
-        Name of its notebook's file.
-    title, summary : str
-        Heading and first two sentences of its notebook.
-    """
-
-    file: str
-    title: str
-    summary: str
-
-
-def describe_dashboard(path: Path) -> Dashboard:
-    """Read the heading and the first two sentences of a dashboard's notebook.
-
-    Parameters
-    ----------
-    path : Path
-        A notebook that begins with a heading and a paragraph of text.
-
-    Examples
-    --------
-    >>> path = bundled("notebooks") / "compare_projections.ipynb"
-    >>> describe_dashboard(path).title
-    'Compare projections'
-    """
-    heading, text = nbformat.read(path, as_version=4).cells[0].source.split("\n\n")[:2]
-    words = " ".join(text.split()).replace("*", "")
-    sentences = words.split(". ")[:2]
-    return Dashboard(path.name, heading.lstrip("# "), ". ".join(sentences).rstrip(".") + ".")
 
 
 class DashboardServer(Voila):
@@ -71,9 +30,9 @@ class DashboardServer(Voila):
     def init_settings(self) -> dict[str, Any]:
         """Tell the index what there is."""
         settings: dict[str, Any] = super().init_settings()
-        names = sorted(Path(self.root_dir).glob("*.ipynb"), key=_place)
+        paths = [Path(self.root_dir, f"{name}.ipynb") for name in DASHBOARDS]
         settings["voila_jinja2_env"].globals.update(
-            dashboards=[describe_dashboard(path) for path in names],
+            dashboards=[describe_dashboard(path) for path in paths],
             version=version("workbench"),
         )
         return settings
@@ -106,7 +65,3 @@ def serve_dashboards(options: list[str]) -> None:
                 *options,
             ]
         )
-
-
-def _place(path: Path) -> int:
-    return DASHBOARDS.index(path.stem)

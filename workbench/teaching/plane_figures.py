@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 from plotly.subplots import make_subplots
 
 from workbench.errors import WorkbenchError
-from workbench.figures.style import TEMPLATE, VERMILLION
+from workbench.figures.style import GREY, TEMPLATE, VERMILLION
 from workbench.optimization.landscape import ErrorLandscape, PlaneGrid
 from workbench.optimization.trace import Trace
+from workbench.teaching.figures import for_both_themes
 
 _NONE = np.empty((0, 2))
 
@@ -138,7 +139,9 @@ def _panels(
     figure.update_xaxes(constrain="domain", showgrid=False)
     figure.update_yaxes(showgrid=False, showticklabels=False, col=2)
     height = {1: 480, 2: 440}.get(len(values), 340)
-    return figure.update_layout(template=TEMPLATE, height=height, margin={"t": 60})
+    legend = {"y": -0.12, "yanchor": "top"}
+    figure.update_layout(template=TEMPLATE, height=height, margin={"t": 50}, legend=legend)
+    return for_both_themes(figure)
 
 
 def _path(trace: Trace, *, first: bool) -> list[go.Scatter]:
@@ -151,7 +154,7 @@ def _path(trace: Trace, *, first: bool) -> list[go.Scatter]:
             x=tried[:, 0],
             y=tried[:, 1],
             mode="markers",
-            marker={"size": 4, "color": "white", "opacity": 0.7},
+            marker={"size": 6, "color": "white", "line": {"width": 1, "color": GREY}},
             name="tried",
             legendgroup="tried",
             showlegend=first,
@@ -163,10 +166,13 @@ def _path(trace: Trace, *, first: bool) -> list[go.Scatter]:
             mode="lines+markers",
             line={"color": VERMILLION, "width": 2},
             marker={
-                "size": [12] + [5] * max(0, len(places) - 2) + [11] * (len(places) > 1),
+                "size": [14] + [5] * max(0, len(places) - 2) + [14] * (len(places) > 1),
                 "color": VERMILLION,
                 "symbol": ["circle-open"] + ["circle"] * (len(places) - 1),
-                "line": {"width": 2, "color": VERMILLION},
+                "line": {
+                    "width": [3] + [0] * max(0, len(places) - 2) + [2] * (len(places) > 1),
+                    "color": "white",
+                },
             },
             name="way of the sample, from the ring to the disc",
             legendgroup="way",
