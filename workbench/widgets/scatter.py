@@ -16,7 +16,7 @@ from workbench.widgets.module import es_module, style_sheet
 # The browser's side; a part uses only those before it, except within functions.
 _PARTS = (
     *("state", "marks", "colours", "legend", "placement", "cloud", "panel"),
-    *("stages", "brush", "mover", "input", "saving", "toolbar"),
+    *("stages", "brush", "mover", "input", "picture", "saving", "toolbar"),
 )
 
 
