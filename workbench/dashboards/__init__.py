@@ -6,17 +6,17 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from workbench.dashboards.compare import ProjectionComparison, compare_projections
-    from workbench.dashboards.explain_optimizer import OptimizerExplanation, explain_optimizer
+    from workbench.dashboards.explain import OptimizerExplanation, explain_optimizer
     from workbench.dashboards.inspector import KeyframeInspector, inspect_keyframes
     from workbench.dashboards.panels import Panel
 
 _HOMES = {
     "KeyframeInspector": "inspector",
-    "OptimizerExplanation": "explain_optimizer",
+    "OptimizerExplanation": "explain",
     "Panel": "panels",
     "ProjectionComparison": "compare",
     "compare_projections": "compare",
-    "explain_optimizer": "explain_optimizer",
+    "explain_optimizer": "explain",
     "inspect_keyframes": "inspector",
 }
 

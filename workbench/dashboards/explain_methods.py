@@ -13,7 +13,7 @@ from workbench.projection import projectors
 from workbench.registry import Registry
 
 #: The back-projector that suits the data: spatial keyframes for motions, RBF for tables.
-USUAL = "usual"
+USUAL = "usual for the data"
 
 
 class Methods:

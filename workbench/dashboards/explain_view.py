@@ -27,8 +27,8 @@ _ALERT = (
     '<div role="alert" style="border-left: 4px solid var(--jp-error-color1, #b71c1c); '
     'padding: 2px 8px; line-height: 1.4">{words}</div>'
 )
-_VECTORS = "error (distance between sample and rebuilt values)"
-_POSES = "error per joint (weighted angle)"
+_VECTORS = "error (distance)"
+_POSES = "error per joint"
 _ASK = (
     "The browser cannot evaluate this back-projector: click a place of the plane, or move it "
     "with Shift and the arrow keys, and Python rebuilds the sample there."

@@ -15,7 +15,7 @@ from sklearn.svm import SVR
 from workbench.backprojection import register_back_projector
 from workbench.backprojection.knn import KNN
 from workbench.dashboards.explain_methods import namespace_regressors
-from workbench.dashboards.explain_optimizer import OptimizerExplanation, explain_optimizer
+from workbench.dashboards.explain import OptimizerExplanation, explain_optimizer
 from workbench.datasets import load_space
 from workbench.errors import WorkbenchError
 from workbench.optimization import optimizers, register_optimizer
@@ -292,7 +292,7 @@ def test_a_long_computation_can_be_cancelled() -> None:
     ("arguments", "words"),
     [
         ({"projector": "none"}, "projector: got 'none', want one of pca"),
-        ({"back_projector": "none"}, "back_projector: got 'none', want one of usual"),
+        ({"back_projector": "none"}, "back_projector: got 'none', want one of usual for the data"),
         ({"back_projector": KNN}, "got the class KNN"),
         ({"back_projector": 3}, "an object with fit and predict"),
         ({"ratio": 0.9}, "ratio: got 0.9, want 0.01 to 0.5"),
@@ -315,3 +315,11 @@ def test_wrong_settings_are_refused_in_words(iris: OptimizerExplanation) -> None
     with pytest.raises(WorkbenchError, match="optimizer: got 'none', want one of alg12"):
         iris.optimizer = "none"
     assert iris.sample == PICKED
+
+
+def test_the_package_offers_it() -> None:
+    """The name in the package is the function, however often it is imported."""
+    import workbench.dashboards
+
+    for _ in range(2):
+        assert workbench.dashboards.explain_optimizer is explain_optimizer
