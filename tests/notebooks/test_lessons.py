@@ -97,6 +97,24 @@ def test_a_lesson_holds_no_method_and_no_solution(path):
             assert {alias.name.split(".")[0] for alias in node.names} <= ALLOWED
 
 
+def _names(cells: list[Any], context: type[ast.expr_context]) -> set[str]:
+    """List the names that cells define (Store) or need (Load)."""
+    nodes = [node for cell in cells for node in ast.walk(ast.parse(cell.source))]
+    return {
+        node.id for node in nodes if isinstance(node, ast.Name) and isinstance(node.ctx, context)
+    }
+
+
+@pytest.mark.parametrize("name", [name for name in PATHS if name[0] in "123"])
+def test_no_cell_needs_what_an_exercise_defines(name):
+    """In lessons 1 to 3 a student's cell may fail as a whole, and the rest runs all the same."""
+    notebook = nbformat.read(PATHS[name], as_version=4)
+    exercises = _cells(notebook, "exercise")
+    others = [c for c in notebook.cells if c.cell_type == "code" and c not in exercises]
+    own = _names(exercises, ast.Store) - _names(others, ast.Store)
+    assert own & _names(others, ast.Load) == set()
+
+
 def _run(path: Path, folder: Path, *, solutions: bool) -> Any:
     """Run a lesson from top to bottom, from another folder."""
     with this_interpreter():
