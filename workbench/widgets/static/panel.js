@@ -46,6 +46,7 @@ class Panel {
     this.dots = marks.dots.map((sprite) => this.raster.fit(sprite));
     this.cross = this.raster.fit(marks.cross);
     this.places = new Int32Array(0);
+    this.filled = new Set(); // which of the canvases above the base have something on them
   }
 
   drawBase(swatchOf, controls) {
@@ -61,12 +62,18 @@ class Panel {
   }
 
   drawMarks(chosen, isControl) {
-    const context = this.marks.getContext("2d");
-    if (!chosen.length) return context.clearRect(0, 0, this.cloud.size, this.cloud.size);
+    if (!chosen.length) return this.clear(this.marks);
     this.raster.clear();
     for (const i of chosen) this.stampDot(i);
     for (const i of chosen) if (isControl[i]) this.stampCross(i);
-    context.putImageData(this.raster.image, 0, 0);
+    this.marks.getContext("2d").putImageData(this.raster.image, 0, 0);
+    this.filled.add(this.marks);
+  }
+
+  /** Clear a canvas, if there is something on it: the browser pays for each canvas touched. */
+  clear(canvas) {
+    if (!this.filled.delete(canvas)) return;
+    canvas.getContext("2d").clearRect(0, 0, this.cloud.size, this.cloud.size);
   }
 
   stampDot(i) {
@@ -79,8 +86,10 @@ class Panel {
 
   /** Draw what follows the mouse; a held control point has a second ring. */
   drawTop({ theme, radius }, hovered, held, outline) {
+    this.clear(this.top);
+    if (!outline && hovered < 0 && held < 0) return;
+    this.filled.add(this.top);
     const context = this.top.getContext("2d");
-    context.clearRect(0, 0, this.cloud.size, this.cloud.size);
     if (outline) this.drawOutline(context, outline, theme);
     this.drawRing(context, hovered, radius + 4, theme);
     this.drawRing(context, held, radius + 9, theme);
