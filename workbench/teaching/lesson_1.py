@@ -33,16 +33,16 @@ def farthest_neighbor(distances: FloatArray, plane_distances: FloatArray) -> int
     return int(distances[np.arange(len(distances)), nearest].argmax())
 
 
+def _nearest(plane_distances: FloatArray) -> NDArray[np.intp]:
+    return (plane_distances + np.diag(np.full(len(plane_distances), np.inf))).argmin(axis=1)
+
+
 def _closest_neighbor(distances: FloatArray, plane_distances: FloatArray) -> int:
-    others = plane_distances.copy()
-    np.fill_diagonal(others, np.inf)
-    return int(distances[np.arange(len(distances)), others.argmin(axis=1)].argmin())
+    return int(distances[np.arange(len(distances)), _nearest(plane_distances)].argmin())
 
 
 def _neighbor_itself(distances: FloatArray, plane_distances: FloatArray) -> int:
-    others = plane_distances.copy()
-    np.fill_diagonal(others, np.inf)
-    return int(others.argmin(axis=1)[farthest_neighbor(distances, plane_distances)])
+    return int(_nearest(plane_distances)[farthest_neighbor(distances, plane_distances)])
 
 
 def _roles_exchanged(distances: FloatArray, plane_distances: FloatArray) -> int:
@@ -128,11 +128,6 @@ def largest_share(samples: FloatArray) -> float:
 def _share_of_deviations(samples: FloatArray) -> float:
     deviations = samples.std(axis=0)
     return float(deviations.max() / deviations.sum())
-
-
-def _share_of_means(samples: FloatArray) -> float:
-    means = np.abs(samples.mean(axis=0))
-    return float(means.max() / means.sum())
 
 
 EXERCISES: Sequence[Question] = (
@@ -282,7 +277,6 @@ EXERCISES: Sequence[Question] = (
                 _share_of_deviations,
                 "You took standard deviations. Squared distances add up, so take variances.",
             ),
-            Mistake(_share_of_means, "You took means. How much do the columns vary?"),
             Mistake(
                 lambda samples: 100 * largest_share(samples),
                 "This is a percentage. Give the share, between 0 and 1.",
