@@ -261,7 +261,7 @@ def test_the_figure_can_be_a_shepard_diagram(iris: ProjectionComparison) -> None
     np.testing.assert_array_equal(figure.data[1].y, diagram.line_embedding)
     assert np.sum(figure.data[3].text) == diagram.n_pairs
     words = [note.text for note in figure.layout.annotations]
-    assert words[1] == f"B: rank correlation {diagram.correlation:.2f}"
+    assert words[1] == f"B: ρ = {diagram.correlation:.2f}"
     iris.view.quality.choice.value = "Neighbourhoods"
     assert "Neighbourhood preservation" in iris.view.quality.curves.description
 

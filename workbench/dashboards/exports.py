@@ -58,7 +58,7 @@ def comparison_page(view: ComparisonView, summary: Summary | None) -> str:
     beside = view.pose if view.pose.layout.display is None else view.details
     name = summary.name if summary else "no data"
     return html_page(
-        [[view.scatter, beside], [view.quality.table, view.quality.curves]],
+        [[view.scatter, beside], view.quality.table, view.quality.curves],
         title=f"Projections of {name}",
         text="Drag in a panel to mark samples: the same ones are marked in all panels. Hover "
         "one to see what it is. Crosses are control points.",

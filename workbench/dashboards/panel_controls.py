@@ -46,28 +46,28 @@ class PanelChooser:
             value=panel.projector,
             description=f"Projector {letter}",
             style=_FITTING,
-            layout=widgets.Layout(width="165px"),
+            layout=widgets.Layout(flex="0 1 165px", min_width="148px"),
         )
         self.parameters = widgets.Text(
             value=parameters_text(panel.parameters),
             description=f"Parameters {letter}",
             continuous_update=False,
             style=_FITTING,
-            layout=widgets.Layout(flex="1 1 150px", min_width="150px", max_width="440px"),
+            layout=widgets.Layout(flex="1 1 205px", min_width="205px", max_width="440px"),
         )
         self.two_step = widgets.Checkbox(
             value=panel.two_step,
             description=f"two-step {letter}",
             indent=False,
             tooltip="Project the control points only, and place the rest around them by RBFP",
-            layout=widgets.Layout(width="100px"),
+            layout=widgets.Layout(width="94px"),
         )
         self.optimized = widgets.Checkbox(
             value=panel.optimized,
             description=f"optimized {letter}",
             indent=False,
             tooltip=f"Optimize the embedding of panel {letter}",
-            layout=widgets.Layout(width="110px"),
+            layout=widgets.Layout(width="104px"),
         )
         self._problem = widgets.HTML(layout=widgets.Layout(display="none", flex="1 1 100%"))
         # What is known, written and used for each projector, so that none loses its own.

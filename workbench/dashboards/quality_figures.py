@@ -85,7 +85,8 @@ def shepard_figure(titles: Sequence[str], results: Sequence[PanelResult | None])
 
     figure = go.Figure(layout={"template": "none"})
     shown = list(zip(titles, results, strict=True))
-    columns = min(_COLUMNS, max(1, len(shown)))
+    # Four look best as two and two.
+    columns = 2 if len(shown) == 4 else min(_COLUMNS, max(1, len(shown)))
     rows = -(-len(shown) // columns)
     for index, (title, result) in enumerate(shown):
         axes = _axes(index)
@@ -103,9 +104,9 @@ def shepard_figure(titles: Sequence[str], results: Sequence[PanelResult | None])
         if result is not None:
             figure.add_heatmap(**_density(result), **_axes(index))
         row, column = divmod(index, columns)
-        _place(figure, index, (row, rows), (column, columns), result)
+        _place(figure, (index, len(shown)), (row, rows), (column, columns), result)
     figure.update_layout(
-        title=_title("Shepard diagram: distance in the plane against distance in the data"),
+        title=_title("Shepard diagram; ρ: rank correlation of the distances"),
         font={"size": 12},
         height=90 + 215 * rows,
         margin={"l": 45, "r": 10, "t": 60, "b": 40},
@@ -130,36 +131,37 @@ def _density(result: PanelResult) -> dict[str, Any]:
 
 def _place(
     figure: go.Figure,
-    index: int,
+    panel: tuple[int, int],
     row: tuple[int, int],
     column: tuple[int, int],
     result: PanelResult | None,
 ) -> None:
     """Give a panel's diagram its place in the grid, and its heading."""
+    index, n_panels = panel
     left, right = _span(*column, gap=0.07)
     low, high = _span(row[1] - 1 - row[0], row[1], gap=0.24 if row[1] > 1 else 0.0)
     number = "" if index == 0 else str(index + 1)
     common = {"gridcolor": _GRID, "zerolinecolor": _GRID, "linecolor": _GRID, "nticks": 4}
-    last_row = row[0] == row[1] - 1
+    lowest = index + column[1] >= n_panels
     figure.update_layout(
         {
             f"xaxis{number}": {
                 **common,
                 "domain": [left, right],
                 "anchor": f"y{number}",
-                "title": {"text": "data" if last_row else "", "standoff": 4},
+                "title": {"text": "distance in data" if lowest else "", "standoff": 4},
             },
             f"yaxis{number}": {
                 **common,
                 "domain": [low, high],
                 "anchor": f"x{number}",
-                "title": {"text": "plane" if column[0] == 0 else "", "standoff": 4},
+                "title": {"text": "in plane" if column[0] == 0 else "", "standoff": 4},
             },
         }
     )
     words = LETTERS[index]
     if result is not None and np.isfinite(result.shepard.correlation):
-        words += f": rank correlation {result.shepard.correlation:.2f}"
+        words += f": ρ = {result.shepard.correlation:.2f}"
     figure.add_annotation(
         text=words,
         x=left,
