@@ -23,7 +23,7 @@ class PictureView(anywidget.AnyWidget):
         What it shows, for those who cannot see it.
     """
 
-    _esm = es_module("saving", "picture")
+    _esm = es_module("saving", "drawing")
     _css = style_sheet()
 
     svg = traitlets.Unicode("").tag(sync=True)
