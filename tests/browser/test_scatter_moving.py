@@ -221,6 +221,9 @@ def test_a_caption_says_when_its_values_are_of_other_positions(mount: Callable) 
     assert caption.inner_text() == "stress 0.2"
     choose(page, "Reset control points")
     assert caption.inner_text() == "while moved: stress 0.2"
+    drag(page, 1, [0, 1], [0.3, 0.8])
+    choose(page, "Reset control points")
+    assert caption.inner_text() == "while moved: stress 0.2"
 
 
 @pytest.mark.parametrize(

@@ -142,7 +142,7 @@ class Mover {
   }
 
   reset() {
-    this.isNew = this.controls.map((ours, p) => (ours ? !this.isNew[p] : false));
+    this.isNew = this.controls.map((ours, p) => Boolean(ours) !== Boolean(this.isNew[p]));
     this.controls.fill(null);
     this.placed.fill(null);
     this.view.say("control points are back");
