@@ -93,6 +93,11 @@ WRONG = {
     "multiplied": ("rbf-weights", lambda **_: lambda c, y: _kernel(c) @ y, "solve the system"),
     "the matrix": ("rbf-weights", lambda **_: lambda c, y: _kernel(c), "This is the matrix"),
     "the positions": ("rbf-weights", lambda **_: lambda c, y: y, "linear system"),
+    "weights in columns": (
+        "rbf-weights",
+        lambda **_: lambda c, y: _weights(c, y).T,
+        "returns has shape (2, 8). An array of shape (8, 2)",
+    ),
     "over the distance": (
         "lamp-weights",
         lambda **_: lambda x, c: _shares(x, c, power=1),

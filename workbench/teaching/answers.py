@@ -34,6 +34,10 @@ class Answer(ABC):
     def same(self, first: Any, second: Any) -> bool:
         """Tell whether two answers that were read are the same."""
 
+    def misshaped(self, given: Any, right: Any) -> str:  # noqa: ARG002 - for those with a shape
+        """Say what shape is wanted; empty if it is that of the right answer."""
+        return ""
+
 
 @dataclass(frozen=True)
 class Number(Answer):
@@ -98,6 +102,12 @@ class Array(Answer):
         array = _numbers(given, "An array of numbers is wanted.")
         _check_finite(array)
         return array
+
+    def misshaped(self, given: np.ndarray, right: np.ndarray) -> str:
+        """Compare the shapes."""
+        if given.shape == right.shape:
+            return ""
+        return f"The answer has shape {given.shape}. An array of shape {right.shape} is wanted."
 
     def same(self, first: np.ndarray, second: np.ndarray) -> bool:
         """Compare shapes, and values up to the tolerance."""

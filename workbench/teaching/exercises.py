@@ -147,7 +147,8 @@ class Exercise(Question):
 
         if fits(self.solution):
             return Verdict("solved", self.praise)
-        return Verdict("wrong", _hint_for(self.mistakes, fits) or self.hint)
+        shape = self.kind.misshaped(read, self.kind.read(self.solution(**given)))
+        return Verdict("wrong", _hint_for(self.mistakes, fits) or shape or self.hint)
 
     def solve(self, given: Mapping[str, Any]) -> Any:
         """Make the right answer."""
@@ -199,7 +200,9 @@ class FunctionExercise(Question):
 
         if fits(self.solution):
             return Verdict("solved", self.praise)
-        return Verdict("wrong", _hint_for(self.mistakes, fits) or self.hint)
+        shape = self.kind.misshaped(read[0], self.kind.read(self.solution(*cases[0])))
+        hint = _hint_for(self.mistakes, fits) or _of_a_function(shape) or self.hint
+        return Verdict("wrong", hint)
 
     def solve(self, given: Mapping[str, Any]) -> Any:  # noqa: ARG002 - the same for all data
         """Give the function."""
@@ -289,6 +292,5 @@ def _line_of(function: Callable[..., Any], error: Exception) -> str:
 
 
 def _of_a_function(message: str) -> str:
-    return message.replace("The answer is", "The function returns", 1).replace(
-        "The answer has", "The function returns", 1
-    )
+    returned = message.replace("The answer is", "The function returns", 1)
+    return returned.replace("The answer has", "What the function returns has", 1)
