@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.dashboards.background import Background
+from workbench.dashboards.home import Home, running_loop
 from workbench.dashboards.inspector_controls import COMPONENTS, SIGMAS, InspectorControls
 from workbench.dashboards.inspector_jobs import (
     Clip,
@@ -123,19 +124,14 @@ class KeyframeInspector:
         self.controls.choose(source)
         self._plan = InspectorPlan(source, self.controls)
         self.view = InspectorView(self.controls)
-        self._background = Background(InspectorSession)
-        self._worker: Worker[Job] = Worker(
-            self._background,
-            missing=self._plan.missing,
-            failures=self._plan.failures,
-            prepare=self._prepared,
-            done=self._take,
-            changed=self._show,
-            report=self._report,
-        )
+        self._backgrounds: list[Background] = []
+        # Two processes, so that keyframes need not wait for curves, which take seconds.
+        self._worker = self._worker_for(self._plan.missing)
+        self._curve_worker = self._worker_for(self._plan.missing_curves)
+        self._live = False
         self._connect()
         self._quiet = False
-        self._worker.wake()
+        self._wake()
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         self.controls.offer(self._methods.registry.names())
@@ -226,7 +222,8 @@ class KeyframeInspector:
 
     async def finished(self) -> None:
         """Wait until everything is computed: ``await inspector.finished()``."""
-        await self._worker.finished()
+        for worker in (self._worker, self._curve_worker):
+            await worker.finished()
 
     def open(self, clip: Data) -> None:
         """Show another clip; the one shown now stays if the new one cannot be loaded."""
@@ -235,11 +232,12 @@ class KeyframeInspector:
         self._plan.wanted = source
         with self._silence():
             self.controls.choose(source)
-        self._worker.wake()
+        self._wake()
 
     def cancel(self) -> None:
         """End what is being computed; what is complete stays."""
-        self._worker.cancel()
+        for worker in (self._worker, self._curve_worker):
+            worker.cancel()
 
     def recompute(self) -> None:
         """Compute what failed or was cancelled, or everything anew if nothing did.
@@ -253,7 +251,7 @@ class KeyframeInspector:
             plan.forget()
         plan.failures.clear()
         plan.wanted = wanted
-        self._worker.wake()
+        self._wake()
 
     def save_filmstrip(self, path: str | Path) -> Path:
         """Write the filmstrip as an SVG file; one that exists is replaced."""
@@ -265,7 +263,8 @@ class KeyframeInspector:
 
     def close(self) -> None:
         """End the process that computes, and take the dashboard out of the page."""
-        self._background.stop()
+        for background in self._backgrounds:
+            background.stop()
         self.view.root.close()
 
     def _save(self, path: str | Path, picture: str) -> Path:
@@ -279,6 +278,24 @@ class KeyframeInspector:
 
     # Computing.
 
+    def _worker_for(self, missing: Callable[[], list[Job]]) -> Worker[Job]:
+        background = Background(InspectorSession)
+        self._backgrounds.append(background)
+        return Worker(
+            background,
+            missing=missing,
+            failures=self._plan.failures,
+            prepare=self._prepared,
+            done=self._take,
+            changed=self._show,
+            report=self._report,
+        )
+
+    def _wake(self) -> None:
+        self._live = running_loop() is not None
+        self._worker.wake()
+        self._curve_worker.wake()
+
     def _prepared(self, job: Job) -> tuple[Job, Selectors]:
         return (loaded_here(job) if isinstance(job, Source) else job), self._methods
 
@@ -289,11 +306,12 @@ class KeyframeInspector:
                 self.controls.suit(len(result.motion))
                 self.controls.exact.value = len(result.motion) <= _FEW_FRAMES
             self.view.show_clip(result)
+            if self._live:  # otherwise they are computed when this is done
+                self._curve_worker.wake()
 
     def _report(self, text: str, done: float | None) -> None:
-        jobs = self._plan.jobs()
-        finished = len(jobs) - len(self._plan.missing())
-        self.view.show_progress(text, min(1.0, (finished + (done or 0.0)) / max(1, len(jobs))))
+        part = (done or 0.0) / len(self._plan.jobs())
+        self.view.show_progress(text, min(1.0, self._plan.share_done() + part))
 
     # Showing.
 
@@ -304,7 +322,7 @@ class KeyframeInspector:
             plan.last = result
             view.show_keyframes(clip, result)
         view.show_counts(plan.curves, plan.last, plan.about_curves())
-        view.show_busy(self._worker.current is not None)
+        view.show_busy(any(w.current is not None for w in (self._worker, self._curve_worker)))
         view.show_message(clip, plan.last, plan.told())
 
     @contextmanager
@@ -319,16 +337,17 @@ class KeyframeInspector:
     # What a person does.
 
     def _connect(self) -> None:
-        self.controls.on_settings(self._on_settings)
-        self.controls.clip.observe(self._on_clip, "value")
-        self.controls.open.on_click(self._on_open)
-        self.view.counts.observe(self._on_picked, "picked")
-        self.view.cancel.on_click(lambda _: self.cancel())
-        self.view.again.on_click(lambda _: self.recompute())
+        here = Home().here
+        self.controls.on_settings(here(self._on_settings))
+        self.controls.clip.observe(here(self._on_clip), "value")
+        self.controls.open.on_click(here(self._on_open))
+        self.view.counts.observe(here(self._on_picked), "picked")
+        self.view.cancel.on_click(here(lambda _: self.cancel()))
+        self.view.again.on_click(here(lambda _: self.recompute()))
 
     def _on_settings(self) -> None:
         if not self._quiet:
-            self._worker.wake()
+            self._wake()
 
     def _on_clip(self, change: Any) -> None:
         if change["new"] and not self._quiet:
@@ -344,4 +363,4 @@ class KeyframeInspector:
         with self._silence():
             self.count = min(change["new"], self.controls.count.max)
             self.view.counts.picked = 0
-        self._worker.wake()
+        self._wake()

@@ -78,8 +78,16 @@ class InspectorPlan:
         return [self.wanted, self.extraction, *self._curve_jobs().values()]
 
     def missing(self) -> list[Job]:
-        """List the jobs that are neither done nor failed."""
-        return [job for job in self.jobs() if job not in self._results and job not in self.failures]
+        """List what of clip and keyframes is neither done nor failed."""
+        return [job for job in self._unfinished() if isinstance(job, (Source, Extraction))]
+
+    def missing_curves(self) -> list[Job]:
+        """List the error curves that are neither done nor failed."""
+        return [job for job in self._unfinished() if not isinstance(job, (Source, Extraction))]
+
+    def share_done(self) -> float:
+        """Tell how much of what is wanted is done or failed, 0 to 1."""
+        return 1.0 - len(self._unfinished()) / len(self.jobs())
 
     def take(self, job: Job, result: Any) -> None:
         """Keep a result; those of the clip before are dropped with the next clip."""
@@ -106,13 +114,16 @@ class InspectorPlan:
 
     def about_curves(self) -> str:
         """Say which error curves are still to come, and why others are not there."""
-        missing, lines = self.missing(), []
+        missing, lines = self.missing_curves(), []
         for name, job in self._curve_jobs().items():
             if job in self.failures:
                 lines.append(f"{name}: {self.failures[job]}")
             elif job in missing:
                 lines.append(f"{name} …")
         return "; ".join(lines)
+
+    def _unfinished(self) -> list[Job]:
+        return [job for job in self.jobs() if job not in self._results and job not in self.failures]
 
     def _curve_jobs(self) -> dict[str, Job]:
         controls, jobs = self._controls, dict[str, Job]()
