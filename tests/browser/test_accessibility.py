@@ -14,6 +14,9 @@ import pytest
 
 from tests.browser.axe import violations
 from tests.browser.chromium import Visit
+from tests.browser.test_figure import figures  # noqa: F401 - a fixture
+from tests.browser.test_landscape import landscape, reconstruction
+from tests.browser.test_player import waving
 from tests.notebooks.screenshot_report import open_report
 from workbench.experiments.bootstrap import Estimate
 from workbench.files import write_atomically
@@ -69,7 +72,15 @@ def status_line() -> StatusLine:
     return StatusLine(value="150 samples")
 
 
-WIDGETS = [scatter_panels, sample_details, pose_view, status_line]
+WIDGETS = [
+    scatter_panels,
+    sample_details,
+    pose_view,
+    status_line,
+    landscape,
+    reconstruction,
+    waving,
+]
 
 
 @pytest.mark.parametrize("theme", THEMES)
@@ -78,9 +89,19 @@ def test_widgets_break_no_rule(
     mount: Callable[..., Any], visit: Visit, widget: Callable[[], Any], theme: str
 ) -> None:
     """Each widget by itself has names, roles and contrast."""
+    # Without a document type, tables would not take the colour of what is around them.
+    visit.page.set_content("<!doctype html><title>A widget</title>")
     visit.page.emulate_media(color_scheme=theme)
     page = mount(widget())
     assert violations(page, ".wb") == []
+
+
+@pytest.mark.parametrize("theme", THEMES)
+def test_figures_break_no_rule(visit: Visit, figures: Any, theme: str) -> None:  # noqa: F811
+    """A drawn plotly figure has a description, and its buttons have names."""
+    visit.page.emulate_media(color_scheme=theme)
+    visit.page.locator(".main-svg").first.wait_for()
+    assert violations(visit.page, ".wb") == []
 
 
 @pytest.fixture(scope="module")
