@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import io
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +21,7 @@ from workbench.errors import WorkbenchError
 from workbench.projection.two_step import project_in_two_steps
 from workbench.quality.local_stress import local_stress
 from workbench.quality.summary import embedding_quality
-from workbench.spaces import VectorSpace
+from workbench.spaces import PoseSpace, VectorSpace
 
 JUMP, TURN = "cmu/01_01-jump", "cmu/01_01-turn"
 
@@ -71,6 +72,16 @@ def test_several_clips_share_a_map(iris: ProjectionComparison) -> None:
     assert len(iris.results["A"].embedding) == n_jump
     controls.further.value = (TURN,)
     assert len(iris.results["A"].embedding) == len(scatter.classes) > n_jump
+
+
+def test_further_clips_join_a_motion_in_memory(iris: ProjectionComparison) -> None:
+    """A clip without a name in the list is kept beside those that are chosen there."""
+    motion = load_space(JUMP).motion[:40]
+    iris.open(PoseSpace(replace(motion, name="cut")))
+    iris.controls.further.value = (TURN,)
+    assert iris.message == ""
+    assert iris.view.scatter.class_names == [TURN, "cut"]
+    assert np.bincount(iris.view.scatter.classes)[1] == 40
 
 
 def test_clips_that_do_not_fit_lose_nothing(iris: ProjectionComparison) -> None:
@@ -225,6 +236,9 @@ def test_repeating_can_be_cancelled(iris: ProjectionComparison) -> None:
     asyncio.run(main())
     assert states(iris) == ["ready", "ready"]
     iris.controls.repeat.value = False
+    iris.controls.n_seeds.value = 4
+    iris.controls.repeat.value = True
+    assert "standard deviation of 4 seeds" in iris.view.quality.table.value
 
 
 def test_a_back_projector_of_ones_own_is_offered_and_used(iris: ProjectionComparison) -> None:

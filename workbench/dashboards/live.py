@@ -16,7 +16,7 @@ from workbench.dashboards.comparison_view import ComparisonView
 from workbench.dashboards.controls import Controls
 from workbench.dashboards.exports import comparison_page
 from workbench.dashboards.home import Home
-from workbench.dashboards.jobs import Job, Methods
+from workbench.dashboards.jobs import Job, Methods, Repetition
 from workbench.dashboards.panels import Panel
 from workbench.dashboards.plan import Plan
 from workbench.dashboards.session import Session
@@ -24,6 +24,7 @@ from workbench.dashboards.sources import (
     Source,
     available,
     loaded_here,
+    on_one_map,
     reread,
     source_of,
     standardized,
@@ -215,7 +216,8 @@ class LiveComparison:
         controls, scatter, here = self.controls, self.view.scatter, Home().here
         controls.on_settings(here(self._on_settings))
         controls.data.observe(here(self._on_data), "value")
-        controls.further.observe(here(self._on_data), "value")
+        controls.further.observe(here(self._on_further), "value")
+        controls.repeat.observe(here(self._on_repeat), "value")
         controls.standardize.observe(here(self._on_standardize), "value")
         controls.open.on_click(here(self._on_open))
         controls.color_by.observe(here(lambda _: self._show()), "value")
@@ -229,12 +231,21 @@ class LiveComparison:
         self.plan.describe()
         self.worker.wake()
 
+    def _on_repeat(self, _: Any) -> None:
+        """Measure what was cancelled before, now that it is wanted again."""
+        failures = self.plan.failures
+        for job in [job for job in failures if isinstance(job, Repetition)]:
+            del failures[job]
+        self.worker.wake()
+
     def _on_data(self, change: Any) -> None:
-        first = self.controls.data.value
-        if not first or self._quiet:
-            return
-        further = self.controls.further.value if change["owner"] is self.controls.further else ()
-        self.want(source_of([first, *further], None, self.controls.standardize.value))
+        if change["new"] and not self._quiet:
+            self.want(source_of(change["new"], None, self.controls.standardize.value))
+
+    def _on_further(self, change: Any) -> None:
+        if not self._quiet:
+            first = (self.plan.wanted.parts or (self.plan.wanted,))[0]
+            self.want(on_one_map([first, *map(source_of, change["new"])]))
 
     def _on_open(self, _: Any) -> None:
         if self.controls.path.value.strip():

@@ -125,6 +125,10 @@ class Plan:
         if isinstance(job, Source):
             self.source, self.summary = job, result
             return
+        if isinstance(job, Influence):
+            # Large, and only those of the present control points are of use.
+            for other in [other for other in self._done if isinstance(other, Influence)]:
+                del self._done[other]
         self._done[job] = result
         if isinstance(job, Run):
             for letter, run in self.runs.items():

@@ -52,7 +52,7 @@ _STYLE = """<style>
 .wb-quality table { border-collapse: collapse; font-variant-numeric: tabular-nums; width: 100%; }
 .wb-quality caption { text-align: left; color: var(--jp-ui-font-color1, inherit); padding: 4px 0; }
 .wb-quality th, .wb-quality td { padding: 3px 8px; text-align: right; line-height: 1.35;
-  border-bottom: 1px solid var(--jp-border-color2, #cccccc); }
+  border-bottom: 1px solid var(--jp-border-color2, rgba(128, 128, 128, 0.45)); }
 .wb-quality thead th { vertical-align: bottom; font-weight: 600; }
 .wb-quality tbody th { text-align: left; font-weight: 400; }
 .wb-quality td { white-space: nowrap; }

@@ -91,7 +91,14 @@ def source_of(data: Any, label: str | None = None, standardize: bool = False) ->
     parts = tuple(source_of(part) for part in data)
     if len(parts) == 1:
         return source_of(data[0], label, standardize)
-    return Source(" + ".join(part.name for part in parts), parts=parts)
+    return on_one_map(parts)
+
+
+def on_one_map(clips: Sequence[Source]) -> Source:
+    """Ask for several clips on one map; one is asked for as it is."""
+    if len(clips) == 1:
+        return clips[0]
+    return Source(" + ".join(clip.name for clip in clips), parts=tuple(clips))
 
 
 def _named(name: str, label: str | None, standardize: bool) -> Source:
