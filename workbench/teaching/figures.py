@@ -54,7 +54,9 @@ def for_both_themes(figure: go.Figure) -> go.Figure:
     figure.update_annotations(font_color=_TEXT)
     # Dots that are seen through are pale on white and dim on black.
     figure.update_traces(marker_opacity=1.0, selector=_is_dotted)
-    figure.update_traces(marker_line_color=_TEXT, selector={"marker.symbol": "x"})
+    # A black outline is lost on black; a grey one needs more room to be seen on white.
+    cross = {"size": 11, "line": {"color": _TEXT, "width": 1.5}}
+    figure.update_traces(marker=cross, selector={"marker.symbol": "x"})
     axes = {"gridcolor": _GRID, "zerolinecolor": _GRID}
     return figure.update_xaxes(axes).update_yaxes(axes)
 
