@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.browser.axe import violations
+from tests.browser.chromium import Visit
 from workbench.widgets.count_curve import CountCurve
 from workbench.widgets.picture import PictureView
 from workbench.widgets.time_curves import TimeCurves
@@ -163,3 +165,15 @@ def test_without_a_picture_nothing_can_be_saved(mount: Callable) -> None:
     """The buttons wait for a drawing."""
     page = mount(PictureView())
     assert page.get_by_role("button", name="Save PNG").is_disabled()
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_views_break_no_rule_of_accessibility(
+    mount: Callable, visit: Visit, theme: str
+) -> None:
+    """Curves, counts and pictures have names, roles and contrast by the rules of axe-core."""
+    visit.page.set_content("<!doctype html><title>Keyframes</title>")
+    visit.page.emulate_media(color_scheme=theme)
+    for widget in (curves(), count_curve(), PictureView(svg=_SQUARE, description="a square")):
+        page = mount(widget)
+    assert violations(page, ".wb") == []
