@@ -31,6 +31,7 @@ from workbench.quality.neighborhoods import (
 )
 from workbench.quality.sammon import sammon_stress
 from workbench.quality.shepard import nonmetric_stress, shepard_goodness, shepard_pairs
+from workbench.quality.shepard_diagram import shepard_diagram
 from workbench.quality.stress import (
     kruskal_stress,
     normalized_stress,
@@ -99,6 +100,7 @@ BY_OTHER_MEASURES: tuple[Case, ...] = (
         "numbers",
     ),
     ("pairs", lambda _: shepard_pairs(DISTANCES, MAP, 0), "n_pairs: got 0", "above 0"),
+    ("bins", lambda _: shepard_diagram(DISTANCES, MAP, n_bins=0), "n_bins: got 0", "above 0"),
     ("goodness", lambda _: shepard_goodness(EQUAL_PAIRS), "distances: got pairs", "different"),
     ("order", lambda _: nonmetric_stress(ONE_PLACE), "embedding: got one place", "different"),
     (
@@ -164,7 +166,7 @@ def of_measures() -> Iterator[Refused]:
         local_stress,
         embedding_quality,
     )
-    for measure in (*stresses, sammon_stress, shepard_pairs):
+    for measure in (*stresses, sammon_stress, shepard_pairs, shepard_diagram):
         yield from refused(measure.__name__, measure, BY_EVERY_MEASURE)
     for measure in stresses:
         yield from refused(measure.__name__, measure, BY_STRESSES)

@@ -46,6 +46,7 @@ from workbench.mocap import (
 from workbench.mocap import distances as pose_distances
 from workbench.mocap.contacts import feet_by_height, find_feet, foot_heights
 from workbench.mocap.curve_saliency import curve_curvature, curve_saliency, saliency_maps
+from workbench.mocap.joining import join
 from workbench.mocap.motion_saliency import motion_saliency
 from workbench.mocap.nearest_rotation import nearest_rotations
 from workbench.mocap.rotations import (
@@ -127,6 +128,9 @@ OF_MOTIONS: tuple[Case, ...] = (
     ("time 0", lambda _: changed(frame_time=0.0), "frame_time: got 0.0", "above 0"),
     ("time nan", lambda _: changed(frame_time=NAN), "frame_time: got nan", "above 0"),
     ("moved", lambda _: changed(joint_translations={9: ROOT}), "for joint 9", "from 1 to 2"),
+    ("no clips", lambda _: join([]), "motions: got none", "at least one"),
+    ("clips", lambda _: join([MOTION, POSES]), "motion: got PoseSpace", "want a Motion"),
+    ("rates", lambda _: join([MOTION, MOTION[::2]]), "per second and", "one frame rate"),
     ("one frame", lambda _: MOTION[3], "frames: got 3", "want a slice"),
     ("backwards", lambda _: MOTION[5:2], "frames: got slice(5, 2", "at least one"),
     ("no joints", lambda _: Skeleton((), [], [], (), ()), "names: got none", "at least one"),
