@@ -11,7 +11,8 @@ from workbench.dashboards.explain_words import title_of, told
 from workbench.optimization.global_search import GlobalSearch
 from workbench.optimization.gradient_descent import GradientDescent
 from workbench.optimization.local_search import LocalSearch
-from workbench.optimization.trace import Step, Trace, Try, trace_optimization
+from workbench.optimization.recording import trace_optimization
+from workbench.optimization.trace import Step, Trace, Try
 
 HERE = np.array([0.5, 0.5])
 

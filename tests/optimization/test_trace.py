@@ -15,7 +15,8 @@ from workbench.optimization.global_search import GlobalSearch
 from workbench.optimization.gradient_descent import GradientDescent
 from workbench.optimization.local_search import LocalSearch
 from workbench.optimization.objective import Objective, OptimizationResult
-from workbench.optimization.trace import Trace, trace_optimization
+from workbench.optimization.recording import record_optimization, trace_optimization
+from workbench.optimization.trace import Trace
 from workbench.schemes import SpatialScheme
 
 OPTIMIZERS = pytest.mark.parametrize(
@@ -177,3 +178,18 @@ def test_only_samples_that_move_are_followed(sample):
     """Control points and what is no sample are refused in words."""
     with pytest.raises(WorkbenchError, match=r"sample: got .*control points"):
         traced(problem(derivatives=True), LocalSearch(), sample)
+
+
+def test_one_recording_serves_all_samples():
+    """Traces of one recording are those of runs that follow a single sample."""
+    made = problem(derivatives=True)
+    recording = record_optimization(
+        GlobalSearch(), made.space, made.back_projector, made.start, np.arange(20)
+    )
+    for sample in (20, 47):
+        once, alone = recording.trace(sample), traced(made, GlobalSearch(), sample)
+        assert np.array_equal(once.positions, alone.positions)
+        assert np.array_equal(once.errors, alone.errors)
+        tries = [[t.error for s in trace.steps for t in s.tries] for trace in (once, alone)]
+        assert tries[0] == tries[1]
+    assert recording.size > 0

@@ -19,12 +19,13 @@ from workbench.optimization.landscape import (
     error_landscape,
     rebuild_grid,
 )
-from workbench.optimization.trace import Trace, trace_optimization
+from workbench.optimization.recording import Recording, record_optimization
+from workbench.optimization.trace import Trace
 from workbench.results import SpatialResult
 from workbench.spaces import PoseSpace, Space, VectorSpace
 from workbench.widgets.radial import radial_function
 
-#: Numbers in the reconstructions of a grid that are kept for other samples: 256 MB.
+#: Numbers of the grids, and of an optimizer's recording, kept for other samples: 256 MB.
 _KEPT = 2**25
 
 
@@ -39,6 +40,7 @@ class ExplainSession:
         self._setup: Setup | None = None
         self._result: SpatialResult | None = None
         self._said: tuple[str, ...] = ()
+        self._recordings: dict[Method, Recording] = {}
         self._grids: dict[Area, NDArray[np.float64]] = {}
 
     def answer(self, job: Job, context: Any, *, report: Report) -> Any:  # noqa: ARG002 - the worker's signature
@@ -99,20 +101,24 @@ class ExplainSession:
     def trace(self, setup: Setup, sample: int, optimizer: Method, *, report: Report) -> Trace:
         """Follow an optimizer."""
         result = self._prepared(setup, report)
+        if optimizer in self._recordings:
+            return self._recordings[optimizer].trace(sample)
 
         def follow(iteration: int, error: float, embedding: NDArray[np.float64]) -> None:  # noqa: ARG001 - the optimizer's signature
             # How many are to come is not known; most searches end within thirty.
             report(f"{optimizer.name}: iteration {iteration}", 1.0 - 0.93**iteration)
 
-        return trace_optimization(
+        recording = record_optimization(
             optimizer.build(),
             result.space,
             result.back_projector,
             result.projected,
             result.control_points,
-            sample,
             callback=follow,
         )
+        if recording.size <= _KEPT:
+            self._recordings[optimizer] = recording
+        return recording.trace(sample)
 
     def rebuild(
         self, setup: Setup, place: tuple[float, float], *, report: Report
@@ -150,6 +156,7 @@ class ExplainSession:
             )
         self._setup, self._said = setup, tuple(said)
         self._grids.clear()
+        self._recordings.clear()
         return self._result
 
     def _load(self, source: Source, report: Report) -> Space:

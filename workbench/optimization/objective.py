@@ -80,7 +80,7 @@ class Objective:
         What was computed so far.
     stage : str
         What the search tries next, in a word, for those who watch it
-        (:mod:`workbench.optimization.trace`); the values do not depend on it.
+        (:mod:`workbench.optimization.recording`); the values do not depend on it.
     """
 
     def __init__(

@@ -3,17 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
-from workbench.backprojection import BackProjector
-from workbench.errors import WorkbenchError
-from workbench.optimization.objective import Callback, Objective, OptimizationResult
+from workbench.optimization.objective import Objective, OptimizationResult
 from workbench.optimization.trust_region import ErrorModel
-from workbench.spaces import Space, check_space
-from workbench.validation import as_embedding, control_point_indices
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,132 +105,32 @@ class Trace:
         return np.array([step.error for step in self.steps])
 
 
-def trace_optimization(
-    optimizer: Any,
-    space: Space,
-    back_projector: BackProjector,
-    embedding: ArrayLike,
-    control_points: ArrayLike,
-    sample: int,
-    callback: Callback | None = None,
-) -> Trace:
-    """Run an optimizer and record what it does with one sample.
-
-    All samples are optimized, since the searches look at their neighbours too; the numbers
-    are those of a run that is not watched, to the last bit.
+class History:
+    """Steps of one sample, made of what was tried between two looks at where it is.
 
     Parameters
     ----------
-    optimizer : optimizer
-        An object with ``optimize``, of this package or anyone's.
-    space : Space
-        The samples.
-    back_projector : back-projector
-        Fitted on the control points.
-    embedding : array-like of shape (n_samples, n_dimensions)
-        The start.
-    control_points : array-like of shape (n_control_points,)
-        Sorted indices of the samples that stay.
+    objective : Objective
+        Measures the error where the optimizer did not.
     sample : int
-        The one to follow; no control point.
-    callback : callable, optional
-        ``callback(iteration, mean_error, embedding)``; a true result stops the search.
-
-    Returns
-    -------
-    Trace
-
-    Raises
-    ------
-    WorkbenchError
-        If the sample is none that moves, the arrays do not fit each other, or the
-        back-projector gives values that are not finite.
-
-    Examples
-    --------
-    >>> from workbench.backprojection.rbf import RBF
-    >>> from workbench.optimization.gradient_descent import GradientDescent
-    >>> from workbench.spaces import VectorSpace
-    >>> plane = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0], [0.5, 0.5]])
-    >>> start = plane.copy()
-    >>> start[3] = [0.2, 0.9]
-    >>> model = RBF().fit(start[:3], plane[:3])
-    >>> trace = trace_optimization(
-    ...     GradientDescent(), VectorSpace(plane), model, start, [0, 1, 2], 3
-    ... )
-    >>> [tried.stage for tried in trace.steps[1].tries]
-    ['probe', 'probe', 'probe', 'probe', 'step']
-    >>> bool(trace.errors[-1] < 0.1 * trace.errors[0])
-    True
+        Index of the sample.
+    start : ndarray of shape (n_dimensions,)
+        Where it was.
     """
-    check_space(space)
-    start = as_embedding(embedding, "embedding", len(space))
-    fixed = control_point_indices(control_points, len(space), at_least=1)
-    free = np.setdiff1d(np.arange(len(space)), fixed)
-    if sample not in free:
-        raise WorkbenchError(
-            f"sample: got {sample!r}, want one of the {len(free)} samples of {len(space)} that "
-            "are no control points; control points stay where they are"
-        )
-    objective = _Recorder(space, back_projector, int(sample))
-    history = _History(objective, start[sample])
 
-    def follow(iteration: int, error: float, points: NDArray[np.float64]) -> bool | None:
-        history.note(points[sample])
-        return callback(iteration, error, points) if callback is not None else None
-
-    result = optimizer.optimize(objective, start, free, space.neighbors, callback=follow)
-    return history.trace(int(sample), result, float(result.errors.mean()))
-
-
-class _Recorder(Objective):
-    """An objective that notes what it is asked of one sample."""
-
-    def __init__(self, space: Space, back_projector: BackProjector, sample: int) -> None:
-        super().__init__(back_projector, space.errors, space)
-        self.sample = sample
-        self.tries: list[Try] = []
-
-    def __call__(self, points: NDArray[np.float64], indices: ArrayLike) -> NDArray[np.float64]:
-        errors = super().__call__(points, indices)
-        for row in np.flatnonzero(np.asarray(indices) == self.sample):
-            self.tries.append(Try(self.stage, points[row].copy(), float(errors[row])))
-        return errors
-
-    def derivatives(
-        self, points: NDArray[np.float64], indices: ArrayLike
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-        errors, gradients, curvatures = super().derivatives(points, indices)
-        for row in np.flatnonzero(np.asarray(indices) == self.sample):
-            known = gradients[row].copy(), curvatures[row].copy()
-            self.tries.append(Try(self.stage, points[row].copy(), float(errors[row]), *known))
-        return errors, gradients, curvatures
-
-    def table(
-        self,
-        indices: NDArray[np.intp],
-        reconstructions: NDArray[np.float64],
-        points: NDArray[np.float64] | None = None,
-    ) -> NDArray[np.float64]:
-        errors = super().table(indices, reconstructions, points)
-        if points is None:
-            return errors
-        for row in np.flatnonzero(indices == self.sample):
-            pairs = zip(points, errors[row], strict=True)
-            self.tries.extend(Try(self.stage, point.copy(), float(e)) for point, e in pairs)
-        return errors
-
-
-class _History:
-    """Steps of one sample, made of what was tried between two looks at where it is."""
-
-    def __init__(self, objective: _Recorder, start: NDArray[np.float64]) -> None:
+    def __init__(self, objective: Objective, sample: int, start: NDArray[np.float64]) -> None:
         self._objective = objective
+        self._sample = sample
+        self._tries: list[Try] = []
         self._known: dict[bytes, Try] = {}
         self._place = start.copy()
         self._steps: list[Step] = []
         self._iterations = 0
         self._begun = False
+
+    def add_tries(self, tries: list[Try]) -> None:
+        """Note what was tried since the last look."""
+        self._tries += tries
 
     def note(self, place: NDArray[np.float64]) -> None:
         """Note where the sample is after an iteration."""
@@ -243,32 +138,33 @@ class _History:
         self._iterations += 1
         self._add(place)
 
-    def trace(self, sample: int, result: OptimizationResult, mean_error: float) -> Trace:
+    def trace(self, result: OptimizationResult, mean_error: float) -> Trace:
         """Sum up, when the optimizer is done."""
         self._begin()
-        place = np.asarray(result.embedding)[sample]
-        if self._objective.tries:
+        place = np.asarray(result.embedding)[self._sample]
+        if self._tries:
             self._add(self._place if len(self._steps) > 1 else place)
         if not np.array_equal(place, self._place):
             self._add(place, returned=True)
         while len(self._steps) > 1 and not (self._steps[-1].tries or self._steps[-1].moved):
             self._steps.pop()
-        return Trace(sample, tuple(self._steps), self._iterations, result.reason, mean_error)
+        steps = tuple(self._steps)
+        return Trace(self._sample, steps, self._iterations, result.reason, mean_error)
 
     def _begin(self) -> None:
         """Take the first measured error, that at the start, for a step of its own."""
         if self._begun:
             return
         self._begun = True
-        tries = self._objective.tries
+        tries = self._tries
         rest = tries[1:] if tries and np.array_equal(tries[0].position, self._place) else tries
-        self._objective.tries = tries[: len(tries) - len(rest)]
+        self._tries = tries[: len(tries) - len(rest)]
         self._add(self._place)
-        self._objective.tries = rest
+        self._tries = rest
 
     def _add(self, place: NDArray[np.float64], *, returned: bool = False) -> None:
-        tries = self._with_predictions(self._objective.tries)
-        self._objective.tries = []
+        tries = self._with_predictions(self._tries)
+        self._tries = []
         for tried in tries:
             self._known[tried.position.tobytes()] = tried
         moved = not np.array_equal(place, self._place)
@@ -285,8 +181,7 @@ class _History:
         if known is not None:
             return known.error
         # An optimizer from elsewhere may move a sample to where it did not measure.
-        measured = self._objective(place[None], [self._objective.sample])
-        self._objective.tries = []
+        measured = self._objective(place[None], [self._sample])
         return float(measured[0])
 
     def _with_predictions(self, tries: list[Try]) -> list[Try]:
