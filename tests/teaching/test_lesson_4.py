@@ -13,7 +13,8 @@ from workbench.backprojection.rbf import RBF
 from workbench.errors import WorkbenchError
 from workbench.optimization import optimizers
 from workbench.optimization.landscape import PlaneGrid, error_landscape, rebuild_grid
-from workbench.optimization.trace import Trace, trace_optimization
+from workbench.optimization.recording import trace_optimization
+from workbench.optimization.trace import Trace
 from workbench.teaching import Lesson
 from workbench.teaching.held_out import HeldOut
 from workbench.teaching.lesson_4 import alg12_step, nearest_control_point, step_cases

@@ -9,7 +9,7 @@ from workbench.backprojection.rbf import RBF
 from workbench.errors import WorkbenchError
 from workbench.optimization.gradient_descent import GradientDescent
 from workbench.optimization.landscape import PlaneGrid, error_landscape, rebuild_grid
-from workbench.optimization.trace import trace_optimization
+from workbench.optimization.recording import trace_optimization
 from workbench.spaces import VectorSpace
 from workbench.teaching.plane_figures import landscape_panels, value_panels
 
