@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 
 from workbench.dashboards.jobs import Methods, Run
+from workbench.dashboards.measuring import curve_sizes
 from workbench.dashboards.panels import Panel
-from workbench.dashboards.session import Session, curve_sizes
+from workbench.dashboards.session import Session
 from workbench.dashboards.sources import MAX_SAMPLES, Source
 from workbench.dashboards.summaries import summarize
 from workbench.errors import DataError, WorkbenchError

@@ -78,7 +78,12 @@ class PanelChooser:
         self.projector.observe(self._on_projector, "value")
         self.parameters.observe(self._on_parameters, "value")
         self.view = widgets.Box(
-            [self.projector, self.parameters, self.two_step, self.optimized, self._problem],
+            [
+                self.projector,
+                self.parameters,
+                widgets.HBox([self.two_step, self.optimized]),  # they wrap together
+                self._problem,
+            ],
             layout=widgets.Layout(
                 flex_flow="row wrap", align_items="center", flex="1 1 100%", grid_gap="0 8px"
             ),

@@ -24,6 +24,7 @@ from workbench.dashboards.jobs import (
     Run,
     Values,
 )
+from workbench.dashboards.measuring import panel_result
 from workbench.dashboards.panels import check_parameters
 from workbench.dashboards.sources import Source, load_source
 from workbench.dashboards.summaries import Summary, summarize
@@ -39,9 +40,6 @@ if TYPE_CHECKING:
 
 #: Values of the table of influences that the page gets: 16 MB.
 MAX_INFLUENCES = 4_000_000
-
-_LARGEST_K = 100
-_SIZES = 24
 
 
 class Session:
@@ -87,7 +85,7 @@ class Session:
             Gets the progress.
         """
         result, notes = self._scheme_result(run, methods, report)
-        return self._panel_result(run, result, notes, report)
+        return panel_result(run, result, notes, report)
 
     def repeat(self, job: Repetition, methods: Methods, *, report: Report) -> Values:
         """Measure the quality of a run."""
@@ -110,7 +108,7 @@ class Session:
         embedding = self._influence(space, control) @ places
         raw = replace(job.run, panel=replace(job.run.panel, optimized=False))
         result, notes = self._rebuilt(raw, methods, space, embedding, report)
-        return self._panel_result(raw, result, tuple(notes), report)
+        return panel_result(raw, result, tuple(notes), report)
 
     def influence(self, job: Influence, *, report: Report) -> NDArray[np.float32]:
         """Say how much each control point counts for each sample.
@@ -191,44 +189,6 @@ class Session:
             )
         return result, said
 
-    def _panel_result(
-        self, run: Run, result: SpatialResult, notes: tuple[str, ...], report: Report
-    ) -> PanelResult:
-        from workbench.quality.local_stress import local_stress
-        from workbench.quality.neighborhoods import (
-            local_neighborhood_quality,
-            neighborhood_quality,
-        )
-        from workbench.quality.shepard_diagram import shepard_diagram
-
-        report("measuring quality", 0.86)
-        distances, embedding = result.space.distances, result.embedding
-        quality = result.quality
-        curve = neighborhood_quality(distances, embedding, curve_sizes(len(embedding)))
-        report("measuring the quality of samples", 0.94)
-        near = local_neighborhood_quality(distances, embedding, quality.k)
-        local = {
-            "stress": local_stress(distances, embedding),
-            "trustworthiness": near.trustworthiness,
-            "continuity": near.continuity,
-            "neighbourhood preservation": near.preservation,
-            "reconstruction error": result.errors,
-        }
-        return PanelResult(
-            embedding=embedding,
-            projected=result.projected if run.panel.optimized else None,
-            control_points=result.control_points,
-            errors=result.errors,
-            error=result.error,
-            quality=quality,
-            local={name: values.astype(np.float32) for name, values in local.items()},
-            k=curve.k,
-            preservation=curve.preservation,
-            shepard=shepard_diagram(distances, embedding, random_state=run.seed),
-            seconds=result.timings.total,
-            notes=notes,
-        )
-
     def _load(self, source: Source, report: Report) -> Space:
         if self._space is None or source != self._source:
             report(f"loading {source.name}", None)
@@ -279,12 +239,6 @@ class Session:
             _check_dimensions(panel.projector, embedding.shape[1])
             self._projections[key] = embedding, tuple(said)
         return self._projections[key]
-
-
-def curve_sizes(n_samples: int) -> NDArray[np.intp]:
-    """Choose neighbourhood sizes for a curve, closer together where they are small."""
-    largest = max(1, min(_LARGEST_K, (n_samples - 1) // 2))
-    return np.unique(np.geomspace(1, largest, _SIZES).round().astype(np.intp))
 
 
 def _selector(space: Space) -> str:
