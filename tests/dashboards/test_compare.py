@@ -318,18 +318,18 @@ def test_cancelling_keeps_what_is_complete_and_can_be_resumed(
 
     async def main() -> None:
         iris.controls.choosers[1].projector.value = "slow"
-        while "projecting" not in iris.view._doing.value:
+        while "projecting" not in iris.view.progress.text:
             await asyncio.sleep(0.02)
-        assert iris.view.cancel.layout.visibility == "visible"
+        assert iris.view.progress.cancel.layout.visibility == "visible"
         start = time.monotonic()
-        iris.view.cancel.click()
+        iris.view.progress.cancel.click()
         await asyncio.wait_for(iris.finished(), 5)
         assert time.monotonic() - start < 5
         assert states(iris) == ["ready", "failed"]
         assert iris.view.scatter.panels[1]["message"] == "cancelled"
-        assert iris.view.cancel.layout.visibility == "hidden"
+        assert iris.view.progress.cancel.layout.visibility == "hidden"
         register_slow(0)
-        iris.view.again.click()
+        iris.view.progress.again.click()
         await asyncio.wait_for(iris.finished(), 60)
 
     asyncio.run(main())
@@ -344,7 +344,7 @@ def test_another_choice_replaces_what_is_being_computed(iris: ProjectionComparis
 
     async def main() -> None:
         iris.controls.choosers[1].projector.value = "slow"
-        while "projecting" not in iris.view._doing.value:
+        while "projecting" not in iris.view.progress.text:
             await asyncio.sleep(0.02)
         iris.controls.choosers[1].projector.value = "isomap"
         await asyncio.wait_for(iris.finished(), 50)

@@ -274,14 +274,14 @@ def test_a_long_computation_can_be_cancelled() -> None:
     async def cancelled() -> OptimizerExplanation:
         explanation = explain_optimizer("uci/iris", "slow")
         await asyncio.sleep(0)
-        assert explanation.view.cancel.layout.visibility == "visible"
+        assert explanation.view.progress.cancel.layout.visibility == "visible"
         explanation.cancel()
         await explanation.finished()
         return explanation
 
     explanation = asyncio.run(cancelled())
     assert explanation.message == "cancelled"
-    assert explanation.view.cancel.layout.visibility == "hidden"
+    assert explanation.view.progress.cancel.layout.visibility == "hidden"
     Slow.delay = 0.0
     explanation.recompute()
     explanation.close()

@@ -5,7 +5,6 @@ from __future__ import annotations
 import itertools
 from collections.abc import Sequence
 from dataclasses import dataclass
-from html import escape
 from typing import Any
 
 import ipywidgets as widgets
@@ -15,16 +14,14 @@ from numpy.typing import NDArray
 from workbench.dashboards.code_cell import CodeControls
 from workbench.dashboards.controls import Controls
 from workbench.dashboards.jobs import LOCAL_MEASURES, PanelResult, Values
+from workbench.dashboards.layout import alert, remark, view_row
+from workbench.dashboards.progress_view import ProgressView
 from workbench.dashboards.quality_view import QualityView
 from workbench.dashboards.summaries import Summary
 from workbench.mocap.sides import joint_sides
-from workbench.widgets import PoseView, SampleDetails, ScatterPanels, StatusLine
+from workbench.widgets import PoseView, SampleDetails, ScatterPanels
 
 _channels = itertools.count(1)
-_ALERT = (
-    '<div role="alert" style="border-left: 4px solid var(--jp-error-color1, #b71c1c); '
-    'padding: 2px 8px; line-height: 1.4">{words}</div>'
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,8 +74,8 @@ class ComparisonView:
         Quality values.
     code : CodeControls
         The view as code.
-    cancel, again : ipywidgets.Button
-        To end a computation and to repeat it.
+    progress : ProgressView
+        What is being computed.
     """
 
     def __init__(self, controls: Controls) -> None:
@@ -88,13 +85,7 @@ class ComparisonView:
         self.details = SampleDetails(channel=channel)
         self.quality = QualityView()
         self.code = CodeControls()
-        self.cancel = widgets.Button(description="Cancel", icon="stop")
-        self.again = widgets.Button(
-            description="Compute again",
-            tooltip="Compute what failed or was cancelled, or else all panels anew",
-        )
-        self._bar = widgets.FloatProgress(min=0, max=1, layout=widgets.Layout(width="200px"))
-        self._doing = StatusLine(layout=widgets.Layout(flex="1 1 200px", min_width="0"))
+        self.progress = ProgressView("all panels", [controls.repeat, controls.n_seeds])
         self._message = widgets.HTML()
         self.root = self._laid_out(controls)
 
@@ -164,19 +155,6 @@ class ComparisonView:
             [state.repeated for state in states],
         )
 
-    def show_progress(self, text: str, done: float) -> None:
-        """Say what is being computed, and how much of everything is done (0 to 1)."""
-        self._bar.value = done
-        self._doing.value = f"{text} …" if text else ""
-
-    def show_busy(self, busy: bool) -> None:
-        """Show or hide the progress; hidden, it keeps its place so that nothing jumps."""
-        for part in (self._bar, self.cancel):
-            part.layout.visibility = "visible" if busy else "hidden"
-        self.again.disabled = busy
-        if not busy:
-            self.show_progress("", 0.0)
-
     def show_message(
         self, summary: Summary | None, notes: Sequence[str], wanted: str, failure: str
     ) -> None:
@@ -185,12 +163,10 @@ class ComparisonView:
         if failure:
             words = failure if failure.startswith(wanted) else f"{wanted}: {failure}"
             kept = f"; still shown: {summary.name}" if summary else ""
-            lines.append(_ALERT.format(words=escape(words + kept)))
+            lines.append(alert(words + kept))
         if summary is not None:
             text = "; ".join([_content(summary), *summary.notes, *notes])
-            lines.append(
-                f'<div style="line-height: 1.4"><b>{escape(summary.name)}</b>: {escape(text)}</div>'
-            )
+            lines.append(remark(summary.name, text))
         self._message.value = "".join(lines)
 
     def _show_colors(self, n_samples: int, states: Sequence[PanelState], color_by: str) -> None:
@@ -226,30 +202,16 @@ class ComparisonView:
         self.scatter.layout = widgets.Layout(flex="3 1 440px", min_width="0")
         for view in (self.pose, self.details):
             view.layout = widgets.Layout(flex="1 1 210px", min_width="0", display="none")
-        row = {"flex_flow": "row wrap", "grid_gap": "8px 16px", "align_items": "flex-start"}
-        progress = widgets.Box(
-            [
-                self.again,
-                controls.repeat,
-                controls.n_seeds,
-                self.cancel,
-                self._bar,
-                self._doing,
-            ],
-            layout=widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="4px 8px"),
-        )
         for part in (self.quality.table, self.quality.figures):
             part.layout = widgets.Layout(flex="1 1 360px", min_width="0")
         views = [self.scatter, self.pose, self.details]
         return widgets.VBox(
             [
                 controls.view,
-                progress,
+                self.progress.view,
                 self._message,
-                widgets.Box(views, layout=widgets.Layout(**row)),
-                widgets.Box(
-                    [self.quality.table, self.quality.figures], layout=widgets.Layout(**row)
-                ),
+                view_row(views),
+                view_row([self.quality.table, self.quality.figures]),
                 self.code.view,
             ],
             layout=widgets.Layout(width="100%"),

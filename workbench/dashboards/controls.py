@@ -6,21 +6,21 @@ from collections.abc import Callable, Sequence
 
 import ipywidgets as widgets
 
+from workbench.dashboards.data_controls import DataControls
 from workbench.dashboards.jobs import LOCAL_MEASURES
+from workbench.dashboards.layout import FITTING, control_row
 from workbench.dashboards.panel_controls import PanelChooser
 from workbench.dashboards.panels import LETTERS, Panel
 from workbench.dashboards.sources import Choice, Source
 from workbench.dashboards.summaries import Summary
 
-_FITTING = {"description_width": "initial"}
-_OWN = ""  # the drop-down's value while data come from elsewhere
 _USUAL = ""  # the back-projector that suits the samples
 
 #: What colours can stand for.
 COLORS = ("class", "time", "none", *LOCAL_MEASURES)
 
 
-class Controls:
+class Controls(DataControls):
     """Choose data, panels and settings.
 
     Parameters
@@ -50,30 +50,32 @@ class Controls:
     ) -> None:
         self._clips = [choice.name for choice in datasets if choice.clip]
         self._keeps_color = color_by is not None
-        self._make_data_controls(datasets)
+        super().__init__(datasets)
+        self._make_clip_controls()
         self._make_settings(back_projectors, color_by)
         self._make_repeat_controls()
         self.count = widgets.Dropdown(
             options=range(1, len(LETTERS) + 1),
             value=len(panels),
             description="Panels",
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="95px"),
         )
         filled = zip(LETTERS, _filled_up(panels, projectors), strict=True)
         self.choosers = [PanelChooser(letter, projectors, panel) for letter, panel in filled]
-        self._own_row = _row([self.path, self.label, self.open])
-        self._further_row = _row([self.further])
+        self._further_row = control_row([self.further])
         self._show_parts()
-        for part in (self.count, self.own, self.several):
+        for part in (self.count, self.several):
             part.observe(lambda _: self._show_parts(), "value")
-        panel_rows = _row([chooser.view for chooser in self.choosers])
+        panel_rows = control_row([chooser.view for chooser in self.choosers])
         self.view = widgets.VBox(
             [
-                _row([self.data, self.own, self.several, self.standardize]),
-                self._own_row,
+                control_row([self.data, self.own, self.several, self.standardize]),
+                self.own_row,
                 self._further_row,
-                _row([self.count, self.ratio, self.seed, self.back_projector, self.color_by]),
+                control_row(
+                    [self.count, self.ratio, self.seed, self.back_projector, self.color_by]
+                ),
                 panel_rows,
             ]
         )
@@ -108,10 +110,8 @@ class Controls:
 
     def choose(self, source: Source) -> None:
         """Show the name of the data; what is not listed is the user's own."""
+        super().choose(source)
         first, *further = source.names
-        known = source.registered or not source.token
-        listed = {value for _, value in self.data.options}
-        self.data.value = first if known and first in listed else _OWN
         others = [name for name in self._clips if name != first]
         if list(self.further.options) != others:
             self.further.options = others
@@ -136,19 +136,7 @@ class Controls:
         self.several.layout.display = None if summary.body else "none"
         self._show_parts()
 
-    def _make_data_controls(self, datasets: Sequence[Choice]) -> None:
-        self.data = widgets.Dropdown(
-            options=[("your own", _OWN), *((choice.text, choice.name) for choice in datasets)],
-            description="Data",
-            style=_FITTING,
-            layout=widgets.Layout(flex="1 1 300px", max_width="520px"),
-        )
-        self.own = widgets.ToggleButton(
-            description="Own file",
-            icon="folder-open",
-            tooltip="Open a file of your own",
-            layout=widgets.Layout(width="110px"),
-        )
+    def _make_clip_controls(self) -> None:
         self.several = widgets.ToggleButton(
             description="Further clips",
             icon="plus",
@@ -158,23 +146,8 @@ class Controls:
         self.further = widgets.SelectMultiple(
             description="Further clips",
             rows=5,
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(flex="1 1 300px", max_width="520px"),
-        )
-        self.path = widgets.Text(
-            placeholder="path of a CSV, TSV, Parquet, ARFF, BVH or AMC file",
-            description="File",
-            style=_FITTING,
-            layout=widgets.Layout(flex="1 1 300px"),
-        )
-        self.label = widgets.Text(
-            placeholder="optional",
-            description="Class column",
-            style=_FITTING,
-            layout=widgets.Layout(width="200px"),
-        )
-        self.open = widgets.Button(
-            description="Open", tooltip="Load this file", layout=widgets.Layout(width="80px")
         )
         self.standardize = widgets.Checkbox(
             description="standardize columns", indent=False, layout=widgets.Layout(width="160px")
@@ -185,7 +158,7 @@ class Controls:
             options=COLORS,
             value=color_by or COLORS[0],
             description="Colour by",
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="265px"),
         )
         self.ratio = widgets.FloatSlider(
@@ -195,21 +168,21 @@ class Controls:
             readout_format=".0%",
             description="Control points",
             continuous_update=False,
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="260px", max_width="98%"),
         )
         self.seed = widgets.BoundedIntText(
             min=0,
             max=2**31 - 1,
             description="Seed",
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="110px"),
         )
         self.back_projector = widgets.Dropdown(
             options=_with_usual(back_projectors),
             description="Back-projector",
             tooltip="What rebuilds samples from their positions in the plane",
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="245px"),
         )
 
@@ -225,22 +198,15 @@ class Controls:
             min=2,
             max=100,
             description="Seeds",
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="100px"),
         )
 
     def _show_parts(self) -> None:
         for index, chooser in enumerate(self.choosers):
             chooser.view.layout.display = None if index < self.count.value else "none"
-        self._own_row.layout.display = None if self.own.value else "none"
         several = self.several.value and self.several.layout.display is None
         self._further_row.layout.display = None if several else "none"
-
-
-def _row(parts: Sequence[widgets.Widget]) -> widgets.Box:
-    """Put controls side by side, in as many lines as the page's width makes necessary."""
-    layout = widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="2px 14px")
-    return widgets.Box(list(parts), layout=layout)
 
 
 def _with_usual(back_projectors: Sequence[str]) -> list[tuple[str, str]]:

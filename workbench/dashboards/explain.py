@@ -17,6 +17,7 @@ from workbench.dashboards.explain_methods import Methods
 from workbench.dashboards.explain_session import ExplainSession
 from workbench.dashboards.explain_state import ExplainState
 from workbench.dashboards.explain_view import ExplainView
+from workbench.dashboards.home import Home
 from workbench.dashboards.sources import (
     Source,
     available,
@@ -131,10 +132,9 @@ class OptimizerExplanation:
         self._there: Setup | None = None
         self._setting = False
 
-        listed = [(choice.text, choice.name) for choice in available()]
         name = self._choice.offered(back_projector)
         self.controls = ExplainControls(
-            listed, list(self._choice.projectors), list(self._choice.back_projectors)
+            available(), list(self._choice.projectors), list(self._choice.back_projectors)
         )
         self.controls.projector.value = projector
         self.controls.back_projector.value = name
@@ -330,14 +330,14 @@ class OptimizerExplanation:
     def _report(self, text: str, done: float | None) -> None:
         missing, every = len(self._missing()), len(self._state.jobs()) + 1
         finished = every - missing if self._state.setup == self._wanted() else 0
-        self.view.show_progress(text, min(1.0, max(0.0, (finished + (done or 0.0)) / every)))
+        self.view.progress.show(text, min(1.0, max(0.0, (finished + (done or 0.0)) / every)))
 
     # Showing.
 
     def _show(self) -> None:
         state, view = self._state, self.view
         busy = self._worker.current is not None
-        view.show_busy(busy)
+        view.progress.show_busy(busy)
         view.show_message(state.plane, state.setup, self.message)
         with self._set_quietly():
             if state.plane is None:
@@ -356,8 +356,7 @@ class OptimizerExplanation:
     def _show_choice(self) -> None:
         """Let the drop-down show what is wanted, without wanting it again."""
         with self._set_quietly():
-            named = self._source.registered or not self._source.token
-            self.controls.choose(self._source.name if named else None)
+            self.controls.choose(self._source)
 
     @contextmanager
     def _set_quietly(self) -> Iterator[None]:
@@ -371,16 +370,16 @@ class OptimizerExplanation:
     # Listening.
 
     def _connect(self) -> None:
-        controls, landscape = self.controls, self.view.landscape
-        controls.on_settings(self._wake_unless_set)
-        controls.data.observe(self._on_data, "value")
-        controls.standardize.observe(self._on_standardize, "value")
-        controls.open.on_click(self._on_open)
-        controls.sample.observe(self._on_sample, "value")
-        landscape.observe(self._on_sample, "sample")
-        landscape.observe(self._on_view, ["active", "place", "zoomed"])
-        self.view.cancel.on_click(lambda _: self.cancel())
-        self.view.again.on_click(lambda _: self.recompute())
+        controls, landscape, here = self.controls, self.view.landscape, Home().here
+        controls.on_settings(here(self._wake_unless_set))
+        controls.data.observe(here(self._on_data), "value")
+        controls.standardize.observe(here(self._on_standardize), "value")
+        controls.open.on_click(here(self._on_open))
+        controls.sample.observe(here(self._on_sample), "value")
+        landscape.observe(here(self._on_sample), "sample")
+        landscape.observe(here(self._on_view), ["active", "place", "zoomed"])
+        self.view.progress.cancel.on_click(here(lambda _: self.cancel()))
+        self.view.progress.again.on_click(here(lambda _: self.recompute()))
 
     def _wake_unless_set(self) -> None:
         if not self._setting:

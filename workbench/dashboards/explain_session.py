@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -12,8 +10,9 @@ from numpy.typing import NDArray
 
 from workbench.dashboards.background import Report
 from workbench.dashboards.explain_jobs import Area, Body, Job, Method, Original, Plane, Setup
+from workbench.dashboards.remarks import said_by_warnings
 from workbench.dashboards.sources import Source, load_source
-from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
+from workbench.errors import WorkbenchError
 from workbench.optimization.landscape import (
     ErrorLandscape,
     error_landscape,
@@ -135,7 +134,7 @@ class ExplainSession:
         from workbench.schemes import SpatialScheme
 
         space = self._load(setup.source, report)
-        with _said_by_warnings() as said:
+        with said_by_warnings() as said:
             back_projector = back_projector_for(
                 space, setup.back_projector.build(), random_state=setup.seed
             )
@@ -194,14 +193,3 @@ def _frame(space: PoseSpace, sample: int) -> tuple[NDArray[np.float64], NDArray[
         offsets[joint] = translations[sample]
     ends = np.array([site.offset for site in motion.skeleton.end_sites]).reshape(-1, 3)
     return np.concatenate([offsets, ends]), np.array(motion.root_translation[sample])
-
-
-@contextmanager
-def _said_by_warnings() -> Iterator[list[str]]:
-    """Collect what the package tells about adjusted parameters and degenerate data."""
-    said: list[str] = []
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        yield said
-    ours = (AdjustmentWarning, DegenerateDataWarning)
-    said.extend(dict.fromkeys(str(w.message) for w in caught if issubclass(w.category, ours)))

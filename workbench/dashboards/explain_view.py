@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
-from html import escape
 from typing import Any
 
 import ipywidgets as widgets
@@ -15,18 +14,15 @@ from workbench.dashboards.explain_controls import ExplainControls
 from workbench.dashboards.explain_jobs import Original, Plane, Setup
 from workbench.dashboards.explain_methods import USUAL
 from workbench.dashboards.explain_words import title_of, told
+from workbench.dashboards.layout import alert, remark, view_row
+from workbench.dashboards.progress_view import ProgressView
 from workbench.mocap.sides import joint_sides
 from workbench.optimization.landscape import ErrorLandscape
 from workbench.optimization.trace import Trace
-from workbench.widgets import StatusLine
 from workbench.widgets.landscape import LandscapeView
 from workbench.widgets.reconstruction import ReconstructionView
 
 _channels = itertools.count(1)
-_ALERT = (
-    '<div role="alert" style="border-left: 4px solid var(--jp-error-color1, #b71c1c); '
-    'padding: 2px 8px; line-height: 1.4">{words}</div>'
-)
 _VECTORS = "error (distance)"
 _POSES = "error per joint"
 _ASK = (
@@ -52,21 +48,15 @@ class ExplainView:
         The plane with the errors and the ways across it.
     reconstruction : ReconstructionView
         The sample beside what is rebuilt.
-    cancel, again : ipywidgets.Button
-        To end a computation and to repeat it.
+    progress : ProgressView
+        What is being computed.
     """
 
     def __init__(self, controls: ExplainControls) -> None:
         channel = f"explanation-{next(_channels)}"
         self.landscape = LandscapeView(channel=channel)
         self.reconstruction = ReconstructionView(channel=channel)
-        self.cancel = widgets.Button(description="Cancel", icon="stop")
-        self.again = widgets.Button(
-            description="Compute again",
-            tooltip="Compute what failed or was cancelled, or else everything anew",
-        )
-        self._bar = widgets.FloatProgress(min=0, max=1, layout=widgets.Layout(width="200px"))
-        self._doing = StatusLine(layout=widgets.Layout(flex="1 1 200px", min_width="0"))
+        self.progress = ProgressView()
         self._message = widgets.HTML()
         self.root = self._laid_out(controls)
 
@@ -137,26 +127,13 @@ class ExplainView:
                 view.traces = shown
             view.active, view.step = active, step
 
-    def show_progress(self, text: str, done: float) -> None:
-        """Say what is being computed, and how much of everything is done (0 to 1)."""
-        self._bar.value = done
-        self._doing.value = f"{text} …" if text else ""
-
-    def show_busy(self, busy: bool) -> None:
-        """Show or hide the progress; hidden, it keeps its place so that nothing jumps."""
-        for part in (self._bar, self.cancel):
-            part.layout.visibility = "visible" if busy else "hidden"
-        self.again.disabled = busy
-        if not busy:
-            self.show_progress("", 0.0)
-
     def show_message(self, plane: Plane | None, setup: Setup | None, failure: str) -> None:
         """Say what is shown, how well it is rebuilt, and what could not be computed."""
         lines = []
         methods = _methods(setup, plane) if setup and plane else ""
         if failure:
             kept = f"; still shown: {plane.name}, {methods}" if plane else ""
-            lines.append(_ALERT.format(words=escape(failure + kept)))
+            lines.append(alert(failure + kept))
         if plane is not None:
             free = plane.free
             mean = float(plane.errors[free].mean()) if len(free) else 0.0
@@ -169,9 +146,7 @@ class ExplainView:
                     *plane.notes,
                 ]
             )
-            lines.append(
-                f'<div style="line-height: 1.4"><b>{escape(plane.name)}</b>: {escape(text)}</div>'
-            )
+            lines.append(remark(plane.name, text))
         value = "".join(lines)
         if self._message.value != value:
             self._message.value = value
@@ -179,18 +154,10 @@ class ExplainView:
     def _laid_out(self, controls: ExplainControls) -> widgets.Widget:
         self.landscape.layout = widgets.Layout(flex="3 1 420px", min_width="0")
         self.reconstruction.layout = widgets.Layout(flex="2 1 300px", min_width="0")
-        progress = widgets.Box(
-            [self.again, self.cancel, self._bar, self._doing],
-            layout=widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="4px 8px"),
-        )
-        views = widgets.Box(
-            [self.landscape, self.reconstruction],
-            layout=widgets.Layout(
-                flex_flow="row wrap", grid_gap="8px 16px", align_items="flex-start"
-            ),
-        )
+        views = view_row([self.landscape, self.reconstruction])
         return widgets.VBox(
-            [controls.view, progress, self._message, views], layout=widgets.Layout(width="100%")
+            [controls.view, self.progress.view, self._message, views],
+            layout=widgets.Layout(width="100%"),
         )
 
 

@@ -311,7 +311,7 @@ class KeyframeInspector:
 
     def _report(self, text: str, done: float | None) -> None:
         part = (done or 0.0) / len(self._plan.jobs())
-        self.view.show_progress(text, min(1.0, self._plan.share_done() + part))
+        self.view.progress.show(text, min(1.0, self._plan.share_done() + part))
 
     # Showing.
 
@@ -322,7 +322,9 @@ class KeyframeInspector:
             plan.last = result
             view.show_keyframes(clip, result)
         view.show_counts(plan.curves, plan.last, plan.about_curves())
-        view.show_busy(any(w.current is not None for w in (self._worker, self._curve_worker)))
+        view.progress.show_busy(
+            any(w.current is not None for w in (self._worker, self._curve_worker))
+        )
         view.show_message(clip, plan.last, plan.told())
 
     @contextmanager
@@ -339,11 +341,11 @@ class KeyframeInspector:
     def _connect(self) -> None:
         here = Home().here
         self.controls.on_settings(here(self._on_settings))
-        self.controls.clip.observe(here(self._on_clip), "value")
+        self.controls.data.observe(here(self._on_clip), "value")
         self.controls.open.on_click(here(self._on_open))
         self.view.counts.observe(here(self._on_picked), "picked")
-        self.view.cancel.on_click(here(lambda _: self.cancel()))
-        self.view.again.on_click(here(lambda _: self.recompute()))
+        self.view.progress.cancel.on_click(here(lambda _: self.cancel()))
+        self.view.progress.again.on_click(here(lambda _: self.recompute()))
 
     def _on_settings(self) -> None:
         if not self._quiet:

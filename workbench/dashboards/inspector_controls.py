@@ -6,11 +6,10 @@ from collections.abc import Callable, Sequence
 
 import ipywidgets as widgets
 
+from workbench.dashboards.data_controls import DataControls
 from workbench.dashboards.inspector_jobs import Method
-from workbench.dashboards.sources import Choice, Source
-
-_FITTING = {"description_width": "initial"}
-_OWN = ""  # the drop-down's value while the clip comes from elsewhere
+from workbench.dashboards.layout import FITTING, control_row, offer_names
+from workbench.dashboards.sources import Choice
 
 #: Ranges of σ in frames, and of k.
 SIGMAS, COMPONENTS = (1.0, 30.0), (1, 30)
@@ -18,7 +17,7 @@ _USUAL_COMPONENTS = 7
 _MOST_KEYFRAMES = 200
 
 
-class InspectorControls:
+class InspectorControls(DataControls):
     """Choose a clip, a method and how many keyframes.
 
     Parameters
@@ -35,19 +34,19 @@ class InspectorControls:
     """
 
     def __init__(self, clips: Sequence[Choice], selectors: Sequence[str]) -> None:
-        self._make_clip_controls(clips)
+        super().__init__(clips, "Clip", "BVH or AMC")
+        self.label.layout.display = "none"  # motions have no classes
         self._make_method_controls(selectors)
         self._make_count_controls()
-        self._own_row = _row([self.path, self.open])
-        for part in (self.own, self.selector, self.own_rule, self.usual_components):
+        for part in (self.selector, self.own_rule, self.usual_components):
             part.observe(lambda _: self._show_parts(), "value")
         self._show_parts()
         self.view = widgets.VBox(
             [
-                _row([self.clip, self.own]),
-                self._own_row,
-                _row([self.selector, self.sigma, self.usual_components, self.components]),
-                _row([self.own_rule, self.count, self.seed, self.exact]),
+                control_row([self.data, self.own]),
+                self.own_row,
+                control_row([self.selector, self.sigma, self.usual_components, self.components]),
+                control_row([self.own_rule, self.count, self.seed, self.exact]),
             ]
         )
 
@@ -83,50 +82,18 @@ class InspectorControls:
 
     def offer(self, selectors: Sequence[str]) -> None:
         """List selectors, those registered meanwhile among them."""
-        if list(self.selector.options) != list(selectors):
-            chosen = self.selector.value
-            self.selector.options = selectors
-            self.selector.value = chosen if chosen in selectors else selectors[0]
-
-    def choose(self, source: Source) -> None:
-        """Show the name of the clip; what is not listed is the user's own."""
-        listed = {value for _, value in self.clip.options}
-        known = source.registered or not source.token
-        self.clip.value = source.name if known and source.name in listed else _OWN
+        offer_names(self.selector, selectors)
 
     def suit(self, n_frames: int) -> None:
         """Offer numbers of keyframes that a clip can have."""
         most = max(3, min(_MOST_KEYFRAMES, n_frames - 1))
         self.count.max = most
 
-    def _make_clip_controls(self, clips: Sequence[Choice]) -> None:
-        self.clip = widgets.Dropdown(
-            options=[("your own", _OWN), *((choice.text, choice.name) for choice in clips)],
-            description="Clip",
-            style=_FITTING,
-            layout=widgets.Layout(flex="1 1 300px", max_width="520px"),
-        )
-        self.own = widgets.ToggleButton(
-            description="Own file",
-            icon="folder-open",
-            tooltip="Open a file of your own",
-            layout=widgets.Layout(width="110px"),
-        )
-        self.path = widgets.Text(
-            placeholder="path of a BVH or AMC file",
-            description="File",
-            style=_FITTING,
-            layout=widgets.Layout(flex="1 1 300px"),
-        )
-        self.open = widgets.Button(
-            description="Open", tooltip="Load this file", layout=widgets.Layout(width="80px")
-        )
-
     def _make_method_controls(self, selectors: Sequence[str]) -> None:
         self.selector = widgets.Dropdown(
             options=selectors,
             description="Method",
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="190px"),
         )
         self.sigma = widgets.FloatSlider(
@@ -137,7 +104,7 @@ class InspectorControls:
             readout_format=".1f",
             description="σ in frames",
             continuous_update=False,
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="260px", max_width="98%"),
         )
         self.usual_components = widgets.Checkbox(
@@ -152,7 +119,7 @@ class InspectorControls:
             max=COMPONENTS[1],
             description="k components",
             continuous_update=False,
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="260px", max_width="98%"),
         )
 
@@ -169,14 +136,14 @@ class InspectorControls:
             max=_MOST_KEYFRAMES,
             description="Keyframes",
             continuous_update=False,
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="280px", max_width="98%"),
         )
         self.seed = widgets.BoundedIntText(
             min=0,
             max=2**31 - 1,
             description="Seed",
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(width="110px"),
         )
         self.exact = widgets.Checkbox(
@@ -189,12 +156,5 @@ class InspectorControls:
         def shown(part: widgets.Widget, yes: bool) -> None:
             part.layout.display = None if yes else "none"
 
-        shown(self._own_row, self.own.value)
         shown(self.components, not self.usual_components.value)
         shown(self.count, not self.own_rule.value)
-
-
-def _row(parts: Sequence[widgets.Widget]) -> widgets.Box:
-    """Put controls side by side, in as many lines as the page's width makes necessary."""
-    layout = widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="2px 14px")
-    return widgets.Box(list(parts), layout=layout)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
@@ -23,8 +20,9 @@ from workbench.dashboards.inspector_jobs import (
     Method,
     Selectors,
 )
+from workbench.dashboards.remarks import said_by_warnings
 from workbench.dashboards.sources import Source, load_source
-from workbench.errors import AdjustmentWarning, DegenerateDataWarning, WorkbenchError
+from workbench.errors import WorkbenchError
 from workbench.mocap.foot_contacts import foot_contacts
 from workbench.mocap.motion import Motion
 from workbench.quality.animation import psnr
@@ -77,7 +75,7 @@ class InspectorSession:
     def extract(self, job: Extraction, methods: Selectors, *, report: Report) -> KeyframeResult:
         """Choose keyframes and rebuild the clip from them."""
         space = self._load(job.source, report)
-        with _said_by_warnings() as said:
+        with said_by_warnings() as said:
             report("measuring saliency", 0.1)
             by_saliency = Saliency(job.method.sigma, job.method.n_components)
             saliency = by_saliency.measure(space.motion)
@@ -117,7 +115,7 @@ class InspectorSession:
         scheme = _scheme(job.method, methods)
         counts = counts_to_measure(len(space))
         errors = []
-        with _said_by_warnings():
+        with said_by_warnings():
             for done, count in enumerate(counts.tolist()):
                 report(f"error of {count} keyframes by {job.method.selector}", done / len(counts))
                 result = scheme.run(space, count=count, random_state=job.method.seed)
@@ -179,14 +177,3 @@ def _pictures(motion: Motion, keyframes: NDArray[np.intp], name: str) -> tuple[s
         description=f"Poses of frames {', '.join(map(str, keyframes))}, side by side.",
     )
     return strip, thumbnail_svg(motion, keyframes, height=220)
-
-
-@contextmanager
-def _said_by_warnings() -> Iterator[list[str]]:
-    """Collect what the package tells about adjusted parameters and degenerate data."""
-    said: list[str] = []
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        yield said
-    ours = (AdjustmentWarning, DegenerateDataWarning)
-    said.extend(dict.fromkeys(str(w.message) for w in caught if issubclass(w.category, ours)))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Sequence
-from html import escape
 from typing import Any
 
 import ipywidgets as widgets
@@ -13,18 +12,14 @@ from numpy.typing import NDArray
 
 from workbench.dashboards.inspector_controls import InspectorControls
 from workbench.dashboards.inspector_jobs import Clip, ErrorCurve, KeyframeResult
+from workbench.dashboards.layout import alert, remark, view_row
+from workbench.dashboards.progress_view import ProgressView
 from workbench.widgets.count_curve import CountCurve
 from workbench.widgets.picture import PictureView
 from workbench.widgets.player import MotionPlayer, motion_traits
-from workbench.widgets.status import StatusLine
 from workbench.widgets.time_curves import TimeCurves
 
 _channels = itertools.count(1)
-_ALERT = (
-    '<div role="alert" style="border-left: 4px solid var(--jp-error-color1, #b71c1c); '
-    'padding: 2px 8px; line-height: 1.4">{words}</div>'
-)
-_LINE = '<div style="line-height: 1.4">{words}</div>'
 
 
 class InspectorView:
@@ -47,8 +42,8 @@ class InspectorView:
         Error against the number of keyframes.
     filmstrip, thumbnail : PictureView
         Pictures of the keyframes.
-    cancel, again : ipywidgets.Button
-        To end a computation and to repeat it.
+    progress : ProgressView
+        What is being computed.
     """
 
     def __init__(self, controls: InspectorControls) -> None:
@@ -58,13 +53,7 @@ class InspectorView:
         self.counts = CountCurve(unit="Error per frame per joint in rad")
         self.filmstrip = PictureView(title="Filmstrip")
         self.thumbnail = PictureView(title="Thumbnail")
-        self.cancel = widgets.Button(description="Cancel", icon="stop")
-        self.again = widgets.Button(
-            description="Compute again",
-            tooltip="Compute what failed or was cancelled, or else everything anew",
-        )
-        self._bar = widgets.FloatProgress(min=0, max=1, layout=widgets.Layout(width="200px"))
-        self._doing = StatusLine(layout=widgets.Layout(flex="1 1 200px", min_width="0"))
+        self.progress = ProgressView()
         self._message = widgets.HTML()
         self._shown: KeyframeResult | None = None
         self.root = self._laid_out(controls)
@@ -140,44 +129,26 @@ class InspectorView:
             self.counts.error = result.error if result else None
             self.counts.message = message
 
-    def show_progress(self, text: str, done: float) -> None:
-        """Say what is being computed, and how much of everything is done (0 to 1)."""
-        self._bar.value = done
-        self._doing.value = f"{text} …" if text else ""
-
-    def show_busy(self, busy: bool) -> None:
-        """Show or hide the progress; hidden, it keeps its place so that nothing jumps."""
-        for part in (self._bar, self.cancel):
-            part.layout.visibility = "visible" if busy else "hidden"
-        self.again.disabled = busy
-        if not busy:
-            self.show_progress("", 0.0)
-
     def show_message(
         self, clip: Clip | None, result: KeyframeResult | None, failures: Sequence[str]
     ) -> None:
         """Say what is shown, and what could not be computed."""
-        lines = [_ALERT.format(words=escape(failure)) for failure in failures]
+        lines = [alert(failure) for failure in failures]
         if clip is not None:
-            lines.append(_LINE.format(words=_about(clip, result)))
+            lines.append(_about(clip, result))
         self._message.value = "".join(lines)
 
     def _laid_out(self, controls: InspectorControls) -> widgets.Widget:
-        progress = widgets.Box(
-            [self.again, self.cancel, self._bar, self._doing],
-            layout=widgets.Layout(flex_flow="row wrap", align_items="center", grid_gap="4px 8px"),
-        )
         for view, flex in ((self.player, "3 1 440px"), (self.counts, "2 1 320px")):
             view.layout = widgets.Layout(flex=flex, min_width="0")
         for view in (self.curves, self.filmstrip, self.thumbnail):
             view.layout = widgets.Layout(width="100%", min_width="0")
-        row = widgets.Layout(flex_flow="row wrap", grid_gap="8px 16px", align_items="flex-start")
         return widgets.VBox(
             [
                 controls.view,
-                progress,
+                self.progress.view,
                 self._message,
-                widgets.Box([self.player, self.counts], layout=row),
+                view_row([self.player, self.counts]),
                 self.curves,
                 self.filmstrip,
                 self.thumbnail,
@@ -232,8 +203,7 @@ def _about(clip: Clip, result: KeyframeResult | None) -> str:
         words.append(f"{n_curves} components keep {share:.0%} of the variance")
         notes += result.notes
     text = " · ".join(words)
-    further = f"<br>{escape('; '.join(notes))}" if notes else ""
-    return f"<b>{escape(clip.name)}</b>: {escape(text)}{further}"
+    return remark(clip.name, text, "; ".join(notes))
 
 
 def _file_name(name: str) -> str:

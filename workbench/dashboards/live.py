@@ -171,7 +171,7 @@ class LiveComparison:
         job, jobs = self.worker.current, self.plan.jobs()
         finished = 0 if isinstance(job, Source) else len(jobs) - len(self.plan.missing())
         words = text if job is None else self.plan.words(job, text)
-        self.view.show_progress(words, min(1.0, (finished + (done or 0.0)) / max(1, len(jobs))))
+        self.view.progress.show(words, min(1.0, (finished + (done or 0.0)) / max(1, len(jobs))))
 
     # Showing.
 
@@ -184,7 +184,7 @@ class LiveComparison:
                 self.controls.color_by.value,
                 plan.influence,
             )
-        self.view.show_busy(self.worker.current is not None)
+        self.view.progress.show_busy(self.worker.current is not None)
         self.view.show_message(plan.summary, plan.notes, plan.wanted.name, self.message)
         self.view.code.show(self.code)
 
@@ -224,8 +224,8 @@ class LiveComparison:
         scatter.observe(here(lambda _: self.view.code.show(self.code)), "selection")
         scatter.observe(here(self._on_moved), "moved")
         scatter.on_msg(here(self._on_message))
-        self.view.cancel.on_click(here(lambda _: self.worker.cancel()))
-        self.view.again.on_click(here(lambda _: self.recompute()))
+        self.view.progress.cancel.on_click(here(lambda _: self.worker.cancel()))
+        self.view.progress.again.on_click(here(lambda _: self.recompute()))
 
     def _on_settings(self) -> None:
         self.plan.describe()

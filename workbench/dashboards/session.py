@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
-from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import replace
 from inspect import signature
 from typing import TYPE_CHECKING, Any
@@ -26,11 +23,10 @@ from workbench.dashboards.jobs import (
 )
 from workbench.dashboards.measuring import panel_result
 from workbench.dashboards.panels import check_parameters
+from workbench.dashboards.remarks import said_by_warnings
 from workbench.dashboards.sources import Source, load_source
 from workbench.dashboards.summaries import Summary, summarize
 from workbench.errors import (
-    AdjustmentWarning,
-    DegenerateDataWarning,
     WorkbenchError,
 )
 from workbench.spaces import PoseSpace, Space
@@ -179,7 +175,7 @@ class Session:
             optimizer=VISUALIZATION_OPTIMIZER if panel.optimized else None,
             two_step="rbfp" if panel.two_step else None,
         )
-        with _said_by_warnings() as said:
+        with said_by_warnings() as said:
             result = scheme.run(
                 space,
                 ratio=run.ratio,
@@ -230,7 +226,7 @@ class Session:
             return None, ()
         if key not in self._projections:
             projector = _created(methods, run)
-            with _said_by_warnings() as said:
+            with said_by_warnings() as said:
                 embedding = (
                     project_in_two_steps(space, projector, "rbfp", control, random_state=run.seed)
                     if panel.two_step
@@ -271,14 +267,3 @@ def _check_dimensions(projector: str, found: int) -> None:
         raise WorkbenchError(
             f"projector {projector!r}: got {found} dimensions, want 2 to show them in a panel"
         )
-
-
-@contextmanager
-def _said_by_warnings() -> Iterator[list[str]]:
-    """Collect what the package tells about adjusted parameters and degenerate data."""
-    said: list[str] = []
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
-        yield said
-    ours = (AdjustmentWarning, DegenerateDataWarning)
-    said.extend(dict.fromkeys(str(w.message) for w in caught if issubclass(w.category, ours)))
