@@ -46,6 +46,7 @@ from workbench.mocap import (
 from workbench.mocap import distances as pose_distances
 from workbench.mocap.contacts import feet_by_height, find_feet, foot_heights
 from workbench.mocap.curve_saliency import curve_curvature, curve_saliency, saliency_maps
+from workbench.mocap.foot_contacts import foot_contacts
 from workbench.mocap.joining import join
 from workbench.mocap.motion_saliency import motion_saliency
 from workbench.mocap.nearest_rotation import nearest_rotations
@@ -180,6 +181,7 @@ OF_MOTIONS: tuple[Case, ...] = (
     ),
     ("no limbs", lambda _: feet_by_height(ONE_BONE), "feet of", "want the names of the feet"),
     ("feet", lambda _: find_feet(MOTION, ["hoof"]), "feet: got 'hoof'", "names of joints"),
+    ("standing", lambda _: foot_contacts(MOTION, ["hoof"]), "feet: got 'hoof'", "names of joints"),
 )
 
 OF_MOTION_FUNCTIONS: tuple[Case, ...] = (
@@ -196,6 +198,7 @@ TAKE_A_MOTION = (
     lambda motion: resample(motion, 0.1),
     lambda motion: write_bvh(motion, "x.bvh"),
     lambda motion: find_feet(motion),
+    lambda motion: foot_contacts(motion),
     lambda motion: animation.psnr(motion, ROTATIONS),
     lambda motion: animation.body_coordinate_error(motion, ROTATIONS, femur=1.0),
     lambda motion: reconstruction.position_error(motion, ROTATIONS),
