@@ -12,7 +12,7 @@ from workbench.projection import control_point_projectors, project, scale_to_uni
 from workbench.spaces import Space, check_space
 from workbench.validation import control_point_indices
 
-#: Share of the samples that the seed projector sees (Costa 2018, section 4.3).
+#: Share of the samples that the seed projector sees (Costa 2018, section 2.3).
 SEED_SHARE = 0.5
 
 
@@ -30,7 +30,7 @@ def project_in_two_steps(
 
     The seed projector sees the control points among a random share of the samples, because
     methods that look at neighbourhoods can do nothing with a handful of them; only the
-    control points' positions are kept (Costa 2018, section 4.3).
+    control points' positions are kept (Costa 2018, section 2.3).
 
     Parameters
     ----------
