@@ -12,7 +12,8 @@ import multiprocessing
 import os
 import signal
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from typing import Any
@@ -23,6 +24,20 @@ from workbench.errors import WorkbenchError
 Report = Callable[[str, float | None], None]
 
 _PAUSE = 0.03  # seconds between two looks at the pipe
+
+#: The variable that keeps threads from spinning, and its value.
+_PATIENT = ("OMP_WAIT_POLICY", "PASSIVE")
+
+#: What computations need; nothing of it may start a thread that a copy would lose.
+_PRELOADED = [
+    "cloudpickle",
+    "sklearn.decomposition",
+    "sklearn.manifold",
+    "workbench.dashboards.session",
+    "workbench.datasets",
+    "workbench.projection",
+    "workbench.schemes",
+]
 
 
 class Stopped(Exception):  # noqa: N818 - no error: someone wanted it
@@ -122,24 +137,57 @@ class Background:
 
     def _started(self) -> tuple[BaseProcess, Connection]:
         if self._process is None or self._connection is None or not self._process.is_alive():
-            # A fresh interpreter: copies of a kernel's threads and locks would hang.
-            context = multiprocessing.get_context("spawn")
+            context = _context()
             ours, theirs = context.Pipe()
-            process = context.Process(target=_serve, args=(theirs, self._factory), daemon=True)
-            process.start()
+            environment = dict(os.environ)
+            process = context.Process(
+                target=_serve, args=(theirs, self._factory, environment), daemon=True
+            )
+            with _patient_threads():
+                process.start()
             theirs.close()
             self._process, self._connection = process, ours
             weakref.finalize(self, process.kill)
         return self._process, self._connection
 
 
-def _serve(connection: Connection, factory: Callable[[], Any]) -> None:
+def _context() -> Any:
+    """Choose how processes start; never as copies of the kernel, whose locks would hang.
+
+    Where it can be, they are copies of a process that has imported what computations need and
+    done nothing else: one that was cancelled is back within a blink.
+    """
+    if "forkserver" not in multiprocessing.get_all_start_methods():
+        return multiprocessing.get_context("spawn")
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(_PRELOADED)
+    return context
+
+
+@contextmanager
+def _patient_threads() -> Iterator[None]:
+    """Let processes that start now have threads that do not spin while they wait.
+
+    Those make t-SNE seven times slower as soon as something else wants a core. The choice is
+    read when the first compiled loop is loaded.
+    """
+    chosen = _PATIENT[0] in os.environ
+    os.environ.setdefault(*_PATIENT)
+    try:
+        yield
+    finally:
+        if not chosen:
+            del os.environ[_PATIENT[0]]
+
+
+def _serve(connection: Connection, factory: Callable[[], Any], environment: dict[str, str]) -> None:
     """Answer calls until the other end is gone."""
     # Interrupting the kernel signals its whole process group, and ends no computation here.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    # Read when the first compiled loop is loaded. Threads that spin while they wait make
-    # t-SNE seven times slower as soon as something else wants a core.
-    os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
+    # The process that this one is a copy of has the variables of its own start.
+    os.environ.clear()
+    os.environ.update(environment)
+    os.environ.setdefault(*_PATIENT)
     import cloudpickle
 
     served: Any = None
