@@ -69,5 +69,4 @@ def test_a_dashboard_is_one_click_from_the_printed_address(address: str, visit: 
     wait_for_panels(dashboard, "sample")
     assert dashboard.get_by_label("Projector A", exact=True).is_visible()
     assert dashboard.locator(".jp-CodeCell .jp-InputArea").count() == 0
-    # The handle of ipywidgets' slider has no name of its own, and none can be given to it.
-    assert violations(dashboard, "#rendered_cells", skip=("aria-input-field-name",)) == []
+    assert violations(dashboard, "#rendered_cells") == []

@@ -8,7 +8,7 @@ import ipywidgets as widgets
 
 from workbench.dashboards.data_controls import DataControls
 from workbench.dashboards.jobs import LOCAL_MEASURES
-from workbench.dashboards.layout import FITTING, control_row
+from workbench.dashboards.layout import FITTING, control_row, seed_field, share_field
 from workbench.dashboards.panel_controls import PanelChooser
 from workbench.dashboards.panels import LETTERS, Panel
 from workbench.dashboards.sources import Choice, Source
@@ -161,23 +161,8 @@ class Controls(DataControls):
             style=FITTING,
             layout=widgets.Layout(width="265px"),
         )
-        self.ratio = widgets.FloatSlider(
-            min=0.01,
-            max=0.5,
-            step=0.01,
-            readout_format=".0%",
-            description="Control points",
-            continuous_update=False,
-            style=FITTING,
-            layout=widgets.Layout(width="260px", max_width="98%"),
-        )
-        self.seed = widgets.BoundedIntText(
-            min=0,
-            max=2**31 - 1,
-            description="Seed",
-            style=FITTING,
-            layout=widgets.Layout(width="110px"),
-        )
+        self.ratio = share_field()
+        self.seed = seed_field()
         self.back_projector = widgets.Dropdown(
             options=_with_usual(back_projectors),
             description="Back-projector",

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import ipywidgets as widgets
 
 from workbench.dashboards.data_controls import DataControls
-from workbench.dashboards.layout import FITTING, control_row, offer_names
+from workbench.dashboards.layout import FITTING, control_row, offer_names, seed_field, share_field
 from workbench.dashboards.sources import Choice
 
 
@@ -51,23 +51,8 @@ class ExplainControls(DataControls):
             style=FITTING,
             layout=widgets.Layout(width="130px"),
         )
-        self.ratio = widgets.FloatSlider(
-            min=0.01,
-            max=0.5,
-            step=0.01,
-            readout_format=".0%",
-            description="Control points",
-            continuous_update=False,
-            style=FITTING,
-            layout=widgets.Layout(width="280px", max_width="98%"),
-        )
-        self.seed = widgets.BoundedIntText(
-            min=0,
-            max=2**31 - 1,
-            description="Seed",
-            style=FITTING,
-            layout=widgets.Layout(width="110px"),
-        )
+        self.ratio = share_field()
+        self.seed = seed_field()
         self.view = widgets.VBox(
             [
                 control_row([self.data, self.own]),

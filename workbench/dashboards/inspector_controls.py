@@ -8,7 +8,7 @@ import ipywidgets as widgets
 
 from workbench.dashboards.data_controls import DataControls
 from workbench.dashboards.inspector_jobs import Method
-from workbench.dashboards.layout import FITTING, control_row, offer_names
+from workbench.dashboards.layout import FITTING, control_row, offer_names, seed_field
 from workbench.dashboards.sources import Choice
 
 #: Ranges of σ in frames, and of k.
@@ -139,13 +139,7 @@ class InspectorControls(DataControls):
             style=FITTING,
             layout=widgets.Layout(width="280px", max_width="98%"),
         )
-        self.seed = widgets.BoundedIntText(
-            min=0,
-            max=2**31 - 1,
-            description="Seed",
-            style=FITTING,
-            layout=widgets.Layout(width="110px"),
-        )
+        self.seed = seed_field()
         self.exact = widgets.Checkbox(
             description="compare with the best of all keyframes",
             indent=False,

@@ -39,6 +39,33 @@ def remark(name: str, words: str, further: str = "") -> str:
     return f'<div style="line-height: 1.4"><b>{escape(name)}</b>: {escape(words)}{below}</div>'
 
 
+def share_field() -> widgets.BoundedFloatText:
+    """Ask for the share of control points, 1 % to 50 %.
+
+    A field and no slider: nothing can name the handle of ipywidgets' sliders for a screen
+    reader.
+    """
+    return widgets.BoundedFloatText(
+        min=0.01,
+        max=0.5,
+        step=0.01,
+        description="Share of control points",
+        style=FITTING,
+        layout=widgets.Layout(width="225px"),
+    )
+
+
+def seed_field() -> widgets.BoundedIntText:
+    """Ask for the seed of everything random."""
+    return widgets.BoundedIntText(
+        min=0,
+        max=2**31 - 1,
+        description="Seed",
+        style=FITTING,
+        layout=widgets.Layout(width="110px"),
+    )
+
+
 def offer_names(control: widgets.Dropdown, names: Sequence[str]) -> None:
     """List other names in a drop-down, and keep what is chosen if it is among them."""
     if list(control.options) != list(names):
