@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import base64
 import os
+import shutil
 from collections.abc import Callable, Iterator
 from typing import Any
 
 import pytest
 
 from tests.browser.chromium import Visit, open_browser
+from tests.browser.lab import Lab, running_lab
+from workbench.resources import bundled
 
 
 @pytest.fixture(scope="package")
@@ -26,6 +29,17 @@ def browser() -> Iterator[Any]:
                 pytest.fail(reason)
             pytest.skip(reason)
         yield found
+
+
+@pytest.fixture(scope="package")
+def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
+    """Start JupyterLab on a copy of all notebooks, with the bundled data only."""
+    notebooks = tmp_path_factory.mktemp("all") / "notebooks"
+    shutil.copytree(bundled("notebooks"), notebooks)
+    folder = tmp_path_factory.mktemp("lab")
+    environment = {"WORKBENCH_DATA": "", "WORKBENCH_CACHE": str(folder / "cache")}
+    with running_lab(folder, notebooks, environment) as lab:
+        yield lab
 
 
 @pytest.fixture

@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 import json
-import shutil
-from collections.abc import Iterator
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,10 +13,8 @@ from tests.browser.lab import (
     choose_data,
     in_kernel,
     open_and_run,
-    running_lab,
     wait_for_panels,
 )
-from workbench.resources import bundled
 
 pytestmark = pytest.mark.browser
 
@@ -32,17 +27,6 @@ _MARKED = """
   return places.map(([x, y]) => data[4 * (Math.round(y) * canvas.width + Math.round(x)) + 3] > 0);
 }
 """
-
-
-@pytest.fixture(scope="package")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    """Start JupyterLab on a copy of the notebook, with the bundled data only."""
-    notebooks = tmp_path_factory.mktemp("notebooks")
-    shutil.copy(bundled("notebooks") / NOTEBOOK, notebooks)
-    folder: Path = tmp_path_factory.mktemp("lab")
-    environment = {"WORKBENCH_DATA": "", "WORKBENCH_CACHE": str(folder / "cache")}
-    with running_lab(folder, notebooks, environment) as lab:
-        yield lab
 
 
 def places_in_panel(embedding: np.ndarray, size: float) -> np.ndarray:

@@ -3,32 +3,18 @@
 from __future__ import annotations
 
 import json
-import shutil
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from tests.browser.chromium import Visit
-from tests.browser.lab import Lab, in_kernel, open_and_run, running_lab
-from workbench.resources import bundled
+from tests.browser.lab import Lab, in_kernel, open_and_run
 
 pytestmark = pytest.mark.browser
 
 NOTEBOOK = "inspect_keyframes.ipynb"
 CLIP = "cmu/01_03-walk"
-
-
-@pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    """Start JupyterLab on a copy of the notebook, with the bundled data only."""
-    notebooks = tmp_path_factory.mktemp("notebooks")
-    shutil.copy(bundled("notebooks") / NOTEBOOK, notebooks)
-    folder: Path = tmp_path_factory.mktemp("lab")
-    environment = {"WORKBENCH_DATA": "", "WORKBENCH_CACHE": str(folder / "cache")}
-    with running_lab(folder, notebooks, environment) as lab:
-        yield lab
 
 
 def wait_for_keyframes(page: Any, name: str, count: int | None = None) -> None:

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import re
-import shutil
-from collections.abc import Iterator
-from pathlib import Path
 
 import nbformat
 import pytest
 
 from tests.browser.chromium import Visit
-from tests.browser.lab import Lab, running_lab
+from tests.browser.lab import Lab
 from workbench.cli.dashboards import DASHBOARDS
 from workbench.reproduction.items import NOTEBOOKS
 from workbench.resources import bundled
@@ -60,16 +57,6 @@ def test_every_published_figure_is_named_beside_its_notebook() -> None:
         ]
         for number in {numbers[0], numbers[-1]} if numbers else ():
             assert number in rows[notebook.name], (notebook.name, number)
-
-
-@pytest.fixture(scope="module")
-def lab(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Lab]:
-    """Start JupyterLab on a copy of all notebooks."""
-    notebooks = tmp_path_factory.mktemp("all") / "notebooks"
-    shutil.copytree(bundled("notebooks"), notebooks)
-    folder: Path = tmp_path_factory.mktemp("lab")
-    with running_lab(folder, notebooks, {"WORKBENCH_DATA": ""}) as lab:
-        yield lab
 
 
 @pytest.mark.browser
