@@ -105,10 +105,10 @@ def _names(cells: list[Any], context: type[ast.expr_context]) -> set[str]:
     }
 
 
-@pytest.mark.parametrize("name", [name for name in PATHS if name[0] in "123"])
-def test_no_cell_needs_what_an_exercise_defines(name):
-    """In lessons 1 to 3 a student's cell may fail as a whole, and the rest runs all the same."""
-    notebook = nbformat.read(PATHS[name], as_version=4)
+@lessons
+def test_no_cell_needs_what_an_exercise_defines(path):
+    """A student's cell may fail as a whole, and the rest runs all the same."""
+    notebook = nbformat.read(path, as_version=4)
     exercises = _cells(notebook, "exercise")
     others = [c for c in notebook.cells if c.cell_type == "code" and c not in exercises]
     own = _names(exercises, ast.Store) - _names(others, ast.Store)
