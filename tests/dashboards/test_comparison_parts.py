@@ -100,7 +100,7 @@ def test_panels_of_one_projector_differ_by_parameters(iris: ProjectionComparison
     first, second = iris.results["A"].embedding, iris.results["B"].embedding
     assert np.abs(first - second).max() > 0.1
     assert iris.view.scatter.panels[1]["title"] == "B · lle (n_neighbors=40)"
-    assert chooser[1].parameters.placeholder == "n_neighbors=15"
+    assert "usual: n_neighbors=15" in chooser[1].hint.value
     chooser[1].parameters.value = "neighbours=3"
     assert "it has" in chooser[1].problem
     assert states(iris) == ["ready", "ready"]

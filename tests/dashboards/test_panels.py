@@ -99,7 +99,7 @@ def test_defaults_are_shown_and_unknown_names_are_refused() -> None:
     controls = chooser()
     known = {"n_components": 2, "perplexity": 50.0, "metric": "euclidean", "random_state": None}
     controls.describe("tsne", known)
-    assert controls.parameters.placeholder == "perplexity=50.0"
+    assert "usual: perplexity=50.0" in controls.hint.value
     controls.parameters.value = "perplxity=3"
     assert controls.problem.startswith("tsne has no parameter 'perplxity'; it has")
     assert controls.panel.parameters == {"perplexity": 10}

@@ -8,6 +8,7 @@ from typing import Any
 
 import ipywidgets as widgets
 
+from workbench.dashboards.layout import FITTING
 from workbench.dashboards.panels import (
     Panel,
     check_parameters,
@@ -16,8 +17,6 @@ from workbench.dashboards.panels import (
     parsed_parameters,
 )
 from workbench.errors import WorkbenchError
-
-_FITTING = {"description_width": "initial"}
 
 
 class PanelChooser:
@@ -36,6 +35,8 @@ class PanelChooser:
     ----------
     projector, parameters, two_step, optimized : ipywidgets.Widget
         The controls.
+    hint : ipywidgets.HTML
+        The parameters' usual values.
     view : ipywidgets.Widget
         All of them.
     """
@@ -45,16 +46,19 @@ class PanelChooser:
             options=projectors,
             value=panel.projector,
             description=f"Projector {letter}",
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(flex="0 1 165px", min_width="148px"),
         )
         self.parameters = widgets.Text(
             value=parameters_text(panel.parameters),
             description=f"Parameters {letter}",
             continuous_update=False,
-            style=_FITTING,
+            style=FITTING,
             layout=widgets.Layout(flex="1 1 205px", min_width="205px", max_width="440px"),
         )
+        # Beside the field and not in it: a field of which anything changes forgets what a
+        # person is writing.
+        self.hint = widgets.HTML(layout=widgets.Layout(flex="0 1 auto", min_width="0"))
         self.two_step = widgets.Checkbox(
             value=panel.two_step,
             description=f"two-step {letter}",
@@ -81,6 +85,7 @@ class PanelChooser:
             [
                 self.projector,
                 self.parameters,
+                self.hint,
                 widgets.HBox([self.two_step, self.optimized]),  # they wrap together
                 self._problem,
             ],
@@ -120,7 +125,7 @@ class PanelChooser:
             self.projector.value = chosen
 
     def describe(self, projector: str, parameters: Mapping[str, Any]) -> None:
-        """Show the parameters of a projector while none are written, and check them from now."""
+        """Show the usual parameters of a projector, and check those written from now on."""
         if self._known.get(projector) != parameters:
             self._known[projector] = parameters
             self._hint()
@@ -137,8 +142,7 @@ class PanelChooser:
     def _hint(self) -> None:
         known = self._known.get(self.projector.value, {})
         shown = parameters_text(offered(known))
-        self.parameters.placeholder = shown
-        self.parameters.tooltip = f"Parameters: {shown}" if shown else None
+        self.hint.value = f"<small>usual: {escape(shown)}</small>" if shown else ""
 
     def _read(self) -> None:
         """Take the parameters as they are written, or say what is wrong with them."""
