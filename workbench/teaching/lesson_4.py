@@ -106,6 +106,7 @@ def _whole_radius(position: FloatArray, *others: Any) -> FloatArray:
     return position + 2 * (alg12_step(position, *others) - position)
 
 
+# Whole again, because the solution above is shown to students as it stands.
 def _without_length(
     position: FloatArray,
     radius: float,
