@@ -1,8 +1,50 @@
-"""Authoring: making new motions from those that were captured (Costa 2018, chapter 6)."""
+"""Authoring: making new motions from those that were captured (Costa 2018, chapter 6).
+
+>>> from workbench import load_space
+>>> from workbench.authoring import edits, play, scene_on_circle
+>>> jump = load_space("cmu/01_01-jump")
+>>> scene = scene_on_circle(jump, selector="uniform", count=8)
+>>> scene = edits.move_marker(scene, jump, 3, [0.5, 0.5])
+>>> scene = edits.stretch(scene, 0.0, 1.0, 2.0)
+>>> len(play(scene, jump)) > len(jump)
+True
+"""
 
 from __future__ import annotations
 
+from workbench.authoring import edits
 from workbench.authoring.animation import animate, poses_at
+from workbench.authoring.history import History
+from workbench.authoring.placing import (
+    Refinement,
+    best_place,
+    influence,
+    placed,
+    reconstruction_error,
+    refined,
+    spatial_keyframes,
+)
+from workbench.authoring.rendering import play
+from workbench.authoring.scene import Marker, Scene
+from workbench.authoring.starts import scene_from_clip, scene_on_circle
 from workbench.authoring.trajectories import Trajectory
 
-__all__ = ["Trajectory", "animate", "poses_at"]
+__all__ = [
+    "History",
+    "Marker",
+    "Refinement",
+    "Scene",
+    "Trajectory",
+    "animate",
+    "best_place",
+    "edits",
+    "influence",
+    "placed",
+    "play",
+    "poses_at",
+    "reconstruction_error",
+    "refined",
+    "scene_from_clip",
+    "scene_on_circle",
+    "spatial_keyframes",
+]

@@ -83,7 +83,7 @@ class Trajectory:
             If positions are not valid or the time is not above 0.
         """
         embedding = as_embedding(points, "points")
-        step = _above_zero("frame_time", frame_time)
+        step = above_zero("frame_time", frame_time)
         return cls(embedding, step * np.arange(len(embedding), dtype=np.float64))
 
     def __len__(self) -> int:
@@ -172,7 +172,7 @@ class Trajectory:
         if measure not in MEASURES:
             raise WorkbenchError(f"measure: got {measure!r}, want one of {', '.join(MEASURES)}")
         along = self.lengths if measure == "length" else self.times
-        apart = np.abs(along - along[index]) / _above_zero("radius", radius)
+        apart = np.abs(along - along[index]) / above_zero("radius", radius)
         weights = (1.0 - np.minimum(apart, 1.0) ** 2) ** 2
         if fixed_ends:
             weights *= _ramp(along, index)
@@ -224,7 +224,7 @@ class Trajectory:
         >>> path.stretched(0.0, 1.0, 3.0).times.tolist()
         [0.0, 3.0, 4.0]
         """
-        factor = _above_zero("factor", factor)
+        factor = above_zero("factor", factor)
         if not self.times[0] <= start < stop <= self.times[-1]:
             raise WorkbenchError(
                 f"start and stop: got {start} and {stop}, want a span within "
@@ -283,7 +283,7 @@ class Trajectory:
         WorkbenchError
             If the time is not above 0, or longer than the trajectory.
         """
-        step = _above_zero("frame_time", frame_time)
+        step = above_zero("frame_time", frame_time)
         # A duration of n frames is a little less than n in binary as often as not.
         n_steps = int(np.floor(self.duration / step + 1e-6))
         if n_steps < 1:
@@ -306,7 +306,14 @@ def _ramp(along: NDArray[np.float64], index: int) -> NDArray[np.float64]:
     return smooth
 
 
-def _above_zero(name: str, value: Any) -> float:
+def above_zero(name: str, value: Any) -> float:
+    """Refuse what is no finite number above 0.
+
+    Raises
+    ------
+    WorkbenchError
+        If it is not; the message names the argument.
+    """
     if not isinstance(value, Real) or isinstance(value, bool) or not 0 < float(value) < np.inf:
         raise WorkbenchError(f"{name}: got {value!r}, want a number above 0")
     return float(value)
