@@ -14,7 +14,6 @@ import pytest
 from workbench.errors import DataError, WorkbenchError
 from workbench.study.answers import Stimulus
 from workbench.study.database import (
-    SCHEMA_VERSION,
     append_answer,
     create_study,
     enrol_participant,
@@ -22,6 +21,7 @@ from workbench.study.database import (
     study_stimuli,
 )
 from workbench.study.reading import read_answers
+from workbench.study.study_file import SCHEMA_VERSION
 
 STIMULI = [Stimulus("methods", "walking", f"method {i}", {"count": i}) for i in range(40)]
 
@@ -173,7 +173,7 @@ def test_a_file_that_is_no_longer_whole_is_refused(study):
 @pytest.mark.parametrize(
     ("statement", "message"),
     [
-        (f"PRAGMA user_version = {SCHEMA_VERSION + 1}", "has version 2 of the format, want 1"),
+        (f"PRAGMA user_version = {SCHEMA_VERSION + 1}", "has version 3 of the format, want 2"),
         ("PRAGMA application_id = 0", "is no file of a user study"),
         ("UPDATE answers SET rating = 11", "damaged"),
         ("UPDATE stimuli SET parameters = 'none'", "want a JSON object"),

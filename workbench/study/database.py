@@ -1,74 +1,35 @@
-"""A running study in one SQLite file: stimuli, participants and their answers.
+"""A running study: its stimuli, its participants and their answers.
 
-Schema, version 1 (``PRAGMA user_version``; ``PRAGMA application_id`` is :data:`APPLICATION_ID`):
-
-- ``stimuli(id, test_case, motion, stimulus, parameters)``: what is rated; ``parameters`` is a
-  JSON object from which the stimulus can be made again; each test case, motion and stimulus
-  once.
-- ``participants(number)``: counted from 1. Nothing else is known of them.
-- ``answers(participant, stimulus_id, rating, position)``: one row for each participant and
-  stimulus; ``rating`` from 1 to 10, ``position`` the place in the order that this participant
-  saw, from 1, or 0 where it is not told. Practice items are not stored.
-
-Each answer is a transaction of its own that is on the disk before the call returns, so that a
-killed process loses none; several processes may write at once.
+All of it is in one SQLite file, see :mod:`workbench.study.study_file`. Each answer is a
+transaction of its own that is on the disk before the call returns.
 """
 
 from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterator, Sequence
-from contextlib import closing, contextmanager
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from workbench.errors import DataError, WorkbenchError
-from workbench.study.answers import (
-    COLUMNS,
-    HIGHEST_RATING,
-    LOWEST_RATING,
-    Stimulus,
-    check_position,
-    check_rating,
-    check_rows,
+from workbench.study.answers import COLUMNS, Stimulus, check_position, check_rating, check_rows
+from workbench.study.study_file import (
+    APPLICATION_ID,
+    SCHEMA,
+    SCHEMA_VERSION,
+    check_schema,
+    transaction,
 )
 from workbench.validation import whole_number
 
 if TYPE_CHECKING:
     import pandas as pd
 
-SQLITE_MAGIC = b"SQLite format 3\0"
-SCHEMA_VERSION = 1
-#: Tells a study from any other SQLite file.
-APPLICATION_ID = int.from_bytes(b"WBst", "big")
 
-#: How long a writer waits for another one.
-_PATIENCE_SECONDS = 30.0
-
-_SCHEMA = (
-    """CREATE TABLE stimuli (
-        id INTEGER PRIMARY KEY,
-        test_case TEXT NOT NULL CHECK (test_case <> ''),
-        motion TEXT NOT NULL CHECK (motion <> ''),
-        stimulus TEXT NOT NULL CHECK (stimulus <> ''),
-        parameters TEXT NOT NULL,
-        UNIQUE (test_case, motion, stimulus)
-    )""",
-    "CREATE TABLE participants (number INTEGER PRIMARY KEY AUTOINCREMENT)",
-    f"""CREATE TABLE answers (
-        participant INTEGER NOT NULL REFERENCES participants (number),
-        stimulus_id INTEGER NOT NULL REFERENCES stimuli (id),
-        rating INTEGER NOT NULL CHECK (
-            typeof(rating) = 'integer' AND rating BETWEEN {LOWEST_RATING} AND {HIGHEST_RATING}
-        ),
-        position INTEGER NOT NULL CHECK (typeof(position) = 'integer' AND position >= 0),
-        PRIMARY KEY (participant, stimulus_id)
-    )""",
-)
-
-
-def create_study(path: str | Path, stimuli: Sequence[Stimulus]) -> None:
+def create_study(
+    path: str | Path, stimuli: Sequence[Stimulus], settings: Mapping[str, Any] | None = None
+) -> None:
     """Make the file of a new study.
 
     Parameters
@@ -77,6 +38,8 @@ def create_study(path: str | Path, stimuli: Sequence[Stimulus]) -> None:
         The file. One that is there is kept, unless it is empty.
     stimuli : sequence of Stimulus
         Everything that will be rated.
+    settings : mapping, optional
+        What else belongs to the study: JSON.
 
     Raises
     ------
@@ -94,15 +57,18 @@ def create_study(path: str | Path, stimuli: Sequence[Stimulus]) -> None:
         if stimulus in stimuli[:index]:
             raise WorkbenchError(f"stimuli: got {' / '.join(stimulus.key)} twice")
     path = Path(path)
-    with _transaction(path, mode="rwc") as database:
+    with transaction(path, mode="rwc") as database:
         # A creation that was killed leaves an empty file, which may be begun again.
         if database.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
             raise DataError(f"{path}: is there already, want the name of a new file")
-        for statement in _SCHEMA:
+        for statement in SCHEMA:
             database.execute(statement)
         database.executemany(
             "INSERT INTO stimuli (test_case, motion, stimulus, parameters) VALUES (?, ?, ?, ?)",
             rows,
+        )
+        database.execute(
+            "INSERT INTO study VALUES (?)", (json.dumps(dict(settings or {}), sort_keys=True),)
         )
         database.execute(f"PRAGMA application_id = {APPLICATION_ID}")
         database.execute(f"PRAGMA user_version = {SCHEMA_VERSION}")
@@ -117,8 +83,8 @@ def enrol_participant(path: str | Path) -> int:
         If the file is no study or cannot be written.
     """
     path = Path(path)
-    with _transaction(path) as database:
-        _check_schema(database, path)
+    with transaction(path) as database:
+        check_schema(database, path)
         number = database.execute("INSERT INTO participants DEFAULT VALUES").lastrowid
     assert number is not None  # an insertion has one
     return number
@@ -156,32 +122,61 @@ def append_answer(
     """
     path = Path(path)
     rating, position = check_rating(rating), check_position(position)
-    participant = whole_number("participant", participant)
-    what = " / ".join(stimulus.key)
-    with _transaction(path) as database:
-        _check_schema(database, path)
-        found = database.execute(
-            "SELECT id FROM stimuli WHERE test_case = ? AND motion = ? AND stimulus = ?",
-            stimulus.key,
-        ).fetchone()
-        if found is None:
-            raise DataError(f"{path}: has no stimulus {what}")
-        known = "SELECT 1 FROM participants WHERE number = ?"
-        if database.execute(known, (participant,)).fetchone() is None:
-            raise DataError(f"{path}: has no participant {participant!r}, want one enrolled")
+    with transaction(path) as database:
+        stimulus_id = stimulus_of(database, path, participant, stimulus)
         before = database.execute(
             "SELECT rating FROM answers WHERE participant = ? AND stimulus_id = ?",
-            (participant, found[0]),
+            (participant, stimulus_id),
         ).fetchone()
         if before is None:
             database.execute(
-                "INSERT INTO answers VALUES (?, ?, ?, ?)", (participant, found[0], rating, position)
+                "INSERT INTO answers VALUES (?, ?, ?, ?, 1)",
+                (participant, stimulus_id, rating, position),
             )
         elif before[0] != rating:
             raise DataError(
-                f"{path}: participant {participant} has rated {what} with {before[0]} before, "
-                f"got {rating}"
+                f"{path}: participant {participant} has rated {' / '.join(stimulus.key)} with "
+                f"{before[0]} before, got {rating}"
             )
+
+
+def stimulus_of(
+    database: sqlite3.Connection, path: Path, participant: int, stimulus: Stimulus
+) -> int:
+    """Find the row of a stimulus that a participant is about to rate.
+
+    Raises
+    ------
+    DataError
+        If the file is no study, or the participant or the stimulus is unknown to it.
+    WorkbenchError
+        If the participant is no number.
+    """
+    check_schema(database, path)
+    check_participant(database, path, participant)
+    found = database.execute(
+        "SELECT id FROM stimuli WHERE test_case = ? AND motion = ? AND stimulus = ?",
+        stimulus.key,
+    ).fetchone()
+    if found is None:
+        raise DataError(f"{path}: has no stimulus {' / '.join(stimulus.key)}")
+    return int(found[0])
+
+
+def check_participant(database: sqlite3.Connection, path: Path, participant: int) -> None:
+    """Refuse the number of somebody who was not enrolled.
+
+    Raises
+    ------
+    DataError
+        If nobody has it.
+    WorkbenchError
+        If it is no number.
+    """
+    number = whole_number("participant", participant)
+    known = "SELECT 1 FROM participants WHERE number = ?"
+    if database.execute(known, (number,)).fetchone() is None:
+        raise DataError(f"{path}: has no participant {participant!r}, want one enrolled")
 
 
 def study_stimuli(path: str | Path) -> list[Stimulus]:
@@ -193,8 +188,8 @@ def study_stimuli(path: str | Path) -> list[Stimulus]:
         If the file is no study or damaged.
     """
     path = Path(path)
-    with _transaction(path, begin="BEGIN") as database:
-        _check_schema(database, path)
+    with transaction(path, begin="BEGIN") as database:
+        check_schema(database, path)
         rows = database.execute(
             "SELECT test_case, motion, stimulus, parameters FROM stimuli ORDER BY id"
         ).fetchall()
@@ -202,6 +197,27 @@ def study_stimuli(path: str | Path) -> list[Stimulus]:
         return [Stimulus(case, motion, name, json.loads(made)) for case, motion, name, made in rows]
     except (TypeError, ValueError):
         raise DataError(f"{path}: is damaged (parameters that are no JSON)") from None
+
+
+def study_settings(path: str | Path) -> dict[str, Any]:
+    """Read what belongs to a study beside its stimuli.
+
+    Raises
+    ------
+    DataError
+        If the file is no study or damaged.
+    """
+    path = Path(path)
+    with transaction(path, begin="BEGIN") as database:
+        check_schema(database, path)
+        row = database.execute("SELECT settings FROM study").fetchone()
+    try:
+        settings = json.loads(row[0])
+    except (TypeError, ValueError):
+        settings = None
+    if not isinstance(settings, dict):
+        raise DataError(f"{path}: is damaged (settings that are no JSON object)")
+    return settings
 
 
 def read_study(path: str | Path) -> pd.DataFrame:
@@ -218,8 +234,8 @@ def read_study(path: str | Path) -> pd.DataFrame:
         If the file is no study, of another version, damaged, or has no answer yet.
     """
     path = Path(path)
-    with _transaction(path, begin="BEGIN") as database:
-        _check_schema(database, path)
+    with transaction(path, begin="BEGIN") as database:
+        check_schema(database, path)
         verdict = database.execute("PRAGMA integrity_check(1)").fetchone()[0]
         if verdict != "ok":
             raise DataError(f"{path}: is damaged ({' '.join(verdict.split())})")
@@ -235,49 +251,3 @@ def read_study(path: str | Path) -> pd.DataFrame:
         place=lambda index: f"{path}, answer {index + 1}",
         source=str(path),
     )
-
-
-@contextmanager
-def _transaction(
-    path: Path, mode: str = "rw", begin: str = "BEGIN IMMEDIATE"
-) -> Iterator[sqlite3.Connection]:
-    """Open a file for one transaction, which is kept whole or not at all.
-
-    A plain ``BEGIN`` only reads: it waits for no writer and needs no right to write.
-    """
-    if mode == "rw" and not path.is_file():
-        raise DataError(f"{path}: there is no such file")
-    try:
-        with closing(
-            sqlite3.connect(
-                f"{path.absolute().as_uri()}?mode={mode}",
-                uri=True,
-                timeout=_PATIENCE_SECONDS,
-                isolation_level=None,
-            )
-        ) as database:
-            # The journal's removal reaches the disk too: a power cut undoes no answer.
-            database.execute("PRAGMA synchronous = EXTRA")
-            database.execute("PRAGMA foreign_keys = ON")
-            database.execute(begin)
-            try:
-                yield database
-            except BaseException:
-                # SQLite itself has undone what failed for lack of space.
-                if database.in_transaction:
-                    database.execute("ROLLBACK")
-                raise
-            database.execute("COMMIT")
-    except sqlite3.OperationalError as error:
-        raise DataError(f"{path}: cannot be used ({error})") from None
-    except sqlite3.DatabaseError as error:
-        raise DataError(f"{path}: is no study, or damaged ({error})") from None
-
-
-def _check_schema(database: sqlite3.Connection, path: Path) -> None:
-    application = database.execute("PRAGMA application_id").fetchone()[0]
-    version = database.execute("PRAGMA user_version").fetchone()[0]
-    if application != APPLICATION_ID:
-        raise DataError(f"{path}: is no file of a user study")
-    if version != SCHEMA_VERSION:
-        raise DataError(f"{path}: has version {version} of the format, want {SCHEMA_VERSION}")

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 from workbench.errors import DataError
 from workbench.files import write_atomically
 from workbench.study.answers import check_answers, check_columns, check_rows
-from workbench.study.database import SQLITE_MAGIC, read_study
+from workbench.study.database import read_study
+from workbench.study.study_file import SQLITE_MAGIC
 
 if TYPE_CHECKING:
     import pandas as pd
