@@ -115,10 +115,10 @@ def test_a_motion_is_described_with_its_body(waving: Motion) -> None:
     summary = summarize(PoseSpace(waving))
     body = summary.body
     assert body is not None
-    assert body.parents == [-1, 0, 1, 0, 2, 3]
-    assert body.names[-2:] == ["lower", "other"]
+    assert body.nodes.parents == [-1, 0, 1, 0, 2, 3]
+    assert body.nodes.names[-2:] == ["lower", "other"]
     assert body.positions.shape == (60, 6, 3)
-    bones = np.linalg.norm(body.positions[:, 1:] - body.positions[:, body.parents[1:]], axis=2)
+    bones = np.linalg.norm(body.positions[:, 1:] - body.positions[:, body.nodes.parents[1:]], axis=2)
     np.testing.assert_allclose(bones, np.broadcast_to([1, 2, 1, 3, 0], bones.shape), atol=1e-5)
 
 

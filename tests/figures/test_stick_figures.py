@@ -67,6 +67,25 @@ def test_each_bone_is_drawn_once():
     assert sum(len(trace.x) for trace in drawn) == 3 * FIGURES.segments[..., 0, 0].size
 
 
+@pytest.mark.parametrize(
+    ("width", "dashed", "opened"), [(2.0, True, False), (5.0, False, True)], ids=["thin", "wide"]
+)
+def test_colour_is_not_all_that_tells_right_from_left(width, dashed, opened):
+    """Right limbs are dashed, or open where they are wide enough; left ones are solid."""
+    traces = body_traces(FIGURES, width=width)
+    for trace in traces:
+        if trace.name in ("left", "trunk"):
+            assert trace.line.dash is None
+        if trace.name == "right":
+            assert bool(trace.line.dash) == dashed
+    inside = [trace for trace in traces if trace.name == "open"]
+    assert bool(inside) == opened
+    for trace in inside:
+        # What is left of the limb on either side is at least a pixel.
+        assert (width - trace.line.width) / 2 >= 1.0
+        assert trace.x in [t.x for t in traces if t.name == "right"]
+
+
 def test_moving_shifts_all_of_a_pose():
     """Bones, head, shadow, root and bounds move together."""
     shifts = np.array([[1.0, 2.0], [0.0, 0.0], [-3.0, 1.0]])
@@ -79,7 +98,7 @@ def test_one_pose_stands_on_a_grid_in_one_scale():
     """The still picture has the ground, both sides in the legend and no axes."""
     figure = stick_figure(JUMP, 150)
     assert figure.data[0].name == "ground"
-    assert [t.name for t in figure.data if t.showlegend] == ["left limbs", "right limbs"]
+    assert [t.name for t in figure.data if t.showlegend] == ["left limbs", "right limbs (open)"]
     assert figure.layout.yaxis.scaleanchor == "x"
 
 

@@ -18,6 +18,13 @@ KEYS = [0, 60, 120, 180, 240, 299]
 SVG = "{http://www.w3.org/2000/svg}"
 
 
+def luminance(color: str) -> float:
+    """Compute the relative luminance of a colour as WCAG defines it."""
+    parts = np.array([int(color[i : i + 2], 16) / 255 for i in (1, 3, 5)])
+    linear = np.where(parts <= 0.04045, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+    return float(linear @ [0.2126, 0.7152, 0.0722])
+
+
 def test_the_first_pose_is_blue_and_the_others_darken():
     """Time is told by lightness, which every reader sees."""
     first, *greys = compose(JUMP, KEYS).colors
@@ -67,6 +74,31 @@ def test_the_svg_is_well_formed_and_tells_what_it_shows():
     for circle in root.iter(f"{SVG}circle"):
         assert 0 < float(circle.get("cx")) < width
         assert 0 < float(circle.get("cy")) < 90
+
+
+@pytest.mark.parametrize("height", [44, 120, 220])
+def test_every_size_can_be_read(height):
+    """Bones are at least a pixel wide, and their colours stand out from white by 3 to 1."""
+    root = ElementTree.fromstring(thumbnail_svg(JUMP, KEYS, height=height))
+    drawn = root.findall(f".//{SVG}g/{SVG}g/{SVG}path")
+    bones = [path for path in drawn if path.get("stroke") != "white"]
+    assert len(bones) == 2 * len(KEYS)  # right limbs, and all others
+    for path in bones:
+        assert float(path.get("stroke-width")) >= 1.0
+        assert 1.05 / (luminance(path.get("stroke")) + 0.05) >= 3.0
+
+
+def test_right_limbs_differ_from_all_others():
+    """In a small picture they are dashed, and open in a large one."""
+    small = ElementTree.fromstring(thumbnail_svg(JUMP, KEYS, height=90))
+    dashed = [path for path in small.iter(f"{SVG}path") if path.get("stroke-dasharray")]
+    assert len(dashed) == len(KEYS)
+    large = ElementTree.fromstring(thumbnail_svg(JUMP, KEYS, height=300))
+    for pose in large.findall(f".//{SVG}g/{SVG}g"):
+        *_, right, inside = pose.findall(f"{SVG}path")
+        assert inside.get("stroke") == "white"
+        assert inside.get("d") == right.get("d")
+        assert not right.get("stroke-dasharray")
 
 
 def test_the_file_is_the_svg(tmp_path):

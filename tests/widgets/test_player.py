@@ -38,6 +38,7 @@ def test_each_node_has_a_parent_before_it_and_a_side(jump: Motion) -> None:
     names = jump.skeleton.names
     assert traits["sides"][names.index("LeftFoot")] == "left"
     assert traits["sides"][names.index("RightFoot")] == "right"
+    assert traits["parents"][traits["head"]] == names.index("Head")
 
 
 @pytest.mark.parametrize(

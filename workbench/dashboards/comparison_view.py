@@ -18,7 +18,6 @@ from workbench.dashboards.layout import alert, remark, view_row
 from workbench.dashboards.progress_view import ProgressView
 from workbench.dashboards.quality_view import QualityView
 from workbench.dashboards.summaries import Summary
-from workbench.mocap.sides import joint_sides
 from workbench.widgets import PoseView, SampleDetails, ScatterPanels
 
 _channels = itertools.count(1)
@@ -104,7 +103,8 @@ class ComparisonView:
         self.details.layout.display = "none" if body else None
         if body:
             with self.pose.hold_sync():
-                self.pose.parents, self.pose.sides = body.parents, joint_sides(body.names)
+                self.pose.parents, self.pose.sides = body.nodes.parents, body.nodes.sides
+                self.pose.head = body.nodes.head
                 self.pose.frame_time, self.pose.frame = body.frame_time, 0
                 self.pose.positions = body.positions
             return
@@ -243,7 +243,7 @@ def _panel(state: PanelState) -> dict[str, str]:
 
 def _content(summary: Summary) -> str:
     if summary.body:
-        joints = len(set(summary.body.names))
+        joints = len(set(summary.body.nodes.names))
         clips = f" of {len(summary.class_names)} clips" if summary.class_names else ""
         return f"{summary.n_samples} frames{clips}, {joints} joints"
     classes = f", {len(summary.class_names)} classes" if summary.class_names else ""

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.dashboards.sources import Source
+from workbench.mocap.body_nodes import BodyNodes
 from workbench.optimization.landscape import PlaneGrid
 from workbench.registry import fresh_copy
 from workbench.widgets.radial import RadialFunction
@@ -121,16 +122,13 @@ class Body:
 
     Attributes
     ----------
-    parents : list of int
-        Of joints and end sites.
-    names : list of str
-        The joint that each node is, or hangs on.
+    nodes : BodyNodes
+        Joints and end sites.
     weights : ndarray of shape (n_joints,)
         Joint weights of the error.
     """
 
-    parents: list[int]
-    names: list[str]
+    nodes: BodyNodes
     weights: NDArray[np.float64]
 
 

@@ -13,6 +13,7 @@ from workbench.dashboards.explain_jobs import Area, Body, Job, Method, Original,
 from workbench.dashboards.remarks import said_by_warnings
 from workbench.dashboards.sources import Source, load_source
 from workbench.errors import WorkbenchError
+from workbench.mocap.body_nodes import body_nodes
 from workbench.optimization.landscape import (
     ErrorLandscape,
     error_landscape,
@@ -179,10 +180,7 @@ class ExplainSession:
 
 
 def _body(space: PoseSpace) -> Body:
-    skeleton = space.motion.skeleton
-    ends = [site.joint for site in skeleton.end_sites]
-    names = [*skeleton.names, *(skeleton.names[joint] for joint in ends)]
-    return Body([*skeleton.parents.tolist(), *ends], names, space.weights)
+    return Body(body_nodes(space.motion.skeleton), space.weights)
 
 
 def _frame(space: PoseSpace, sample: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -16,7 +16,6 @@ from workbench.dashboards.explain_methods import USUAL
 from workbench.dashboards.explain_words import title_of, told
 from workbench.dashboards.layout import alert, remark, view_row
 from workbench.dashboards.progress_view import ProgressView
-from workbench.mocap.sides import joint_sides
 from workbench.optimization.landscape import ErrorLandscape
 from workbench.optimization.trace import Trace
 from workbench.widgets.landscape import LandscapeView
@@ -75,8 +74,9 @@ class ExplainView:
         with view.hold_sync():
             view.original, view.rebuilt, view.rebuilt_at = [], [], []
             view.columns, view.low, view.high = plane.columns, plane.low, plane.high
-            view.parents = body.parents if body else []
-            view.sides = joint_sides(body.names) if body else []
+            view.parents = body.nodes.parents if body else []
+            view.sides = body.nodes.sides if body else []
+            view.head = body.nodes.head if body else -1
             view.weights = body.weights if body else []
             view.kernel = radial.kernel if radial else ""
             view.epsilon = radial.epsilon if radial else 1.0

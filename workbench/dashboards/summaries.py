@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from workbench.mocap.body_nodes import BodyNodes, body_nodes, node_positions
 from workbench.spaces import PoseSpace, Space, VectorSpace
 
 
@@ -18,17 +19,14 @@ class Body:
     ----------
     positions : ndarray of shape (n_frames, n_nodes, 3), float32
         Joints, followed by end sites, in file units.
-    parents : list of int
-        Parent of each node, -1 for the root.
-    names : list of str
-        The joint that each node is, or hangs on.
+    nodes : BodyNodes
+        How these hang together.
     frame_time : float
         Seconds.
     """
 
     positions: NDArray[np.float32]
-    parents: list[int]
-    names: list[str]
+    nodes: BodyNodes
     frame_time: float
 
 
@@ -90,14 +88,8 @@ def summarize(space: Space, notes: tuple[str, ...] = ()) -> Summary:
 
 
 def _body(space: PoseSpace) -> Body:
-    from workbench.mocap.kinematics import end_site_positions
-
-    skeleton = space.motion.skeleton
-    ends = [site.joint for site in skeleton.end_sites]
-    nodes = np.concatenate([space.positions, end_site_positions(space.motion)], axis=1)
     return Body(
-        positions=nodes.astype(np.float32),
-        parents=[*skeleton.parents.tolist(), *ends],
-        names=[*skeleton.names, *(skeleton.names[joint] for joint in ends)],
+        positions=node_positions(space.motion).astype(np.float32),
+        nodes=body_nodes(space.motion.skeleton),
         frame_time=space.motion.frame_time,
     )

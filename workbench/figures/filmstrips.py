@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 from workbench.errors import WorkbenchError
 from workbench.figures.stick_drawing import GROUND, body_traces, hide_axes
 from workbench.figures.stick_figures import StickFigures, stick_figures
+from workbench.figures.stick_look import limb_width
 from workbench.figures.style import BLACK, GREY, TEMPLATE
 from workbench.figures.views import View
 from workbench.mocap.motion import Motion
@@ -89,7 +90,7 @@ def filmstrip(
     figure = go.Figure(layout={"template": TEMPLATE})
     for level in levels:
         figure.add_trace(_ground(left, right, level))
-    for trace in body_traces(figures, width=max(1.8, 0.022 * figures.body_height / per_pixel)):
+    for trace in body_traces(figures, width=limb_width(figures.body_height / per_pixel)):
         figure.add_trace(trace)
     for row in rows:
         foot = bounds[row, 0, 1].min()

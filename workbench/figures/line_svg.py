@@ -75,9 +75,10 @@ def line_svg(figure: go.Figure, *, title: str, description: str, width: int = 97
     for trace in figure.data:
         ends = zip(trace.x, trace.y, strict=True)
         path = _path([None if x is None else place(x, y) for x, y in ends])
+        dash = f'stroke-dasharray="{trace.line.dash}" ' if trace.line.dash else ""
         fill = trace.fillcolor if trace.fill == "toself" else "none"
         parts.append(
-            f"<path fill={quoteattr(fill)} stroke={quoteattr(trace.line.color)} "
+            f"<path fill={quoteattr(fill)} stroke={quoteattr(trace.line.color)} {dash}"
             f'stroke-width="{trace.line.width:.2f}" d="{path}"/>'
         )
     parts.append("</g>")

@@ -9,16 +9,19 @@ import plotly.graph_objects as go
 from numpy.typing import NDArray
 
 from workbench.figures.stick_figures import StickFigures, stick_figures
-from workbench.figures.style import BLACK, BLUE, TEMPLATE, VERMILLION
+from workbench.figures.stick_look import COLORS, TRUNK, Stroke, limb_strokes, limb_width
+from workbench.figures.style import TEMPLATE
 from workbench.figures.views import View, best_view
 from workbench.mocap.motion import Motion
 from workbench.mocap.sides import LEFT, MIDDLE, RIGHT
 
-#: Colours of the limbs; the trunk is dark.
-SIDE_COLORS = {LEFT: BLUE, RIGHT: VERMILLION, MIDDLE: BLACK}
+_INK = COLORS["light"]
 
 #: Colours of the ground's line or grid, and of shadows on it.
-GROUND, SHADOW = "#CDD3D9", "#E6E9ED"
+GROUND, SHADOW = _INK["ground"], _INK["shadow"]
+
+#: Pixels of a picture of one pose, and of the body in it, about.
+_TALL, _BODY_TALL = 460, 300
 
 _CIRCLE = np.stack(
     [np.cos(np.linspace(0.0, 2 * np.pi, 25)), np.sin(np.linspace(0.0, 2 * np.pi, 25))], axis=1
@@ -50,16 +53,18 @@ def stick_figure(motion: Motion, frame: int, view: View | None = None) -> go.Fig
     figures = stick_figures(motion, [frame], view, in_place=True)
     figure = go.Figure(layout={"template": TEMPLATE})
     figure.add_trace(_ground_grid(figures, view))
-    for trace in body_traces(figures, width=5.0, legend=True):
+    for trace in body_traces(figures, width=limb_width(_BODY_TALL), legend=True):
         figure.add_trace(trace)
     hide_axes(figure)
-    return figure.update_layout(height=460, margin={"l": 8, "r": 8, "t": 40, "b": 8})
+    return figure.update_layout(height=_TALL, margin={"l": 8, "r": 8, "t": 40, "b": 8})
 
 
 def body_traces(
     figures: StickFigures, *, width: float = 3.0, legend: bool = False
 ) -> list[go.Scatter]:
-    """Make the traces of all poses: shadows, far limbs, trunks, near limbs, heads.
+    """Make the traces of all poses: shadows, far limbs, trunks, heads, near limbs.
+
+    Left limbs are solid, right ones open, or dashed where they are too thin for that.
 
     Parameters
     ----------
@@ -76,20 +81,19 @@ def body_traces(
         A constant number, however many poses there are.
     """
     sides, nearer = np.array(figures.sides), np.array(figures.nearer)
-    traces = [_lines(figures.shadows, {"color": SHADOW, "width": 1.2 * width}, "shadow")]
+    traces = [_lines(figures.shadows, Stroke(SHADOW, 1.2 * width), "shadow")]
     for is_near in (False, True):
         for side in (LEFT, RIGHT):
             poses = (nearer == side) == is_near
             chosen = figures.segments[poses][:, sides == side]
-            line = {"color": SIDE_COLORS[side], "width": width}
-            traces.append(_lines(chosen, line, side))
+            traces += _limbs(chosen, side, width)
         if not is_near:
             trunk = figures.segments[:, sides == MIDDLE]
-            traces.append(_lines(trunk, {"color": BLACK, "width": 1.15 * width}, "trunk"))
+            traces.append(_lines(trunk, Stroke(_INK[MIDDLE], TRUNK * width), "trunk"))
             traces.append(_heads(figures))
     if legend:
-        for name, color in (("left limbs", BLUE), ("right limbs", VERMILLION)):
-            line = {"color": color, "width": width}
+        for name, side in (("left limbs", LEFT), ("right limbs (open)", RIGHT)):
+            line = {"color": _INK[side], "width": width}
             traces.append(
                 go.Scatter(x=[None], y=[None], mode="lines", name=name, line=line, showlegend=True)
             )
@@ -123,24 +127,48 @@ def segment_path(segments: NDArray[np.float64]) -> tuple[list[float | None], lis
     return xs, ys
 
 
+def stroke_trace(
+    path: tuple[list[float | None], list[float | None]], stroke: Stroke, **settings: Any
+) -> go.Scatter:
+    """Make the trace of a line with gaps, with round joints where it is solid.
+
+    Parameters
+    ----------
+    path : (list, list)
+        As :func:`segment_path` gives it.
+    stroke : Stroke
+        How it is drawn.
+    **settings
+        Of the trace.
+
+    Returns
+    -------
+    plotly.graph_objects.Scatter
+    """
+    return go.Scatter(
+        x=path[0],
+        y=path[1],
+        # Dots as wide as the line make its joints round; they would fill the gaps of dashes.
+        mode="lines" if stroke.dash else "lines+markers",
+        marker={"size": stroke.width, "color": stroke.color, "line": {"width": 0}},
+        line={"color": stroke.color, "width": stroke.width, "dash": stroke.dash or None},
+        showlegend=False,
+        **settings,
+    )
+
+
 def circle_points(center: NDArray[np.float64], radius: float) -> NDArray[np.float64]:
     """Give the corners of a polygon that looks like a circle: (25, 2), closed."""
     return center + radius * _CIRCLE
 
 
-def _lines(segments: NDArray[np.float64], line: dict[str, Any], name: str) -> go.Scatter:
-    xs, ys = segment_path(segments)
-    return go.Scatter(
-        x=xs,
-        y=ys,
-        # Dots as wide as the line make its joints round.
-        mode="lines+markers",
-        marker={"size": line["width"], "color": line["color"], "line": {"width": 0}},
-        line=line,
-        name=name,
-        hoverinfo="skip",
-        showlegend=False,
-    )
+def _limbs(segments: NDArray[np.float64], side: str, width: float) -> list[go.Scatter]:
+    solid, *inside = limb_strokes(side, _INK[side], width)
+    return [_lines(segments, solid, side), *(_lines(segments, stroke, "open") for stroke in inside)]
+
+
+def _lines(segments: NDArray[np.float64], stroke: Stroke, name: str) -> go.Scatter:
+    return stroke_trace(segment_path(segments), stroke, name=name, hoverinfo="skip")
 
 
 def _heads(figures: StickFigures) -> go.Scatter:
@@ -155,8 +183,8 @@ def _heads(figures: StickFigures) -> go.Scatter:
         y=ys,
         mode="lines",
         fill="toself",
-        fillcolor=BLACK,
-        line={"color": BLACK, "width": 0.5},
+        fillcolor=_INK[MIDDLE],
+        line={"color": _INK[MIDDLE], "width": 0.5},
         name="head",
         hoverinfo="skip",
         showlegend=False,
@@ -173,4 +201,4 @@ def _ground_grid(figures: StickFigures, view: View) -> go.Scatter:
     away = [[[tick, end] for end in ends] for tick in ticks]
     corners = np.array(across + away)
     corners[..., 1] *= np.sin(np.radians(view.elevation))
-    return _lines(corners + figures.roots[0], {"color": GROUND, "width": 1}, "ground")
+    return _lines(corners + figures.roots[0], Stroke(GROUND, 1.0), "ground")

@@ -11,14 +11,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from workbench.figures.stick_look import HEAD_RADIUS
 from workbench.figures.views import View, best_view
-from workbench.mocap.kinematics import end_site_positions, joint_positions
+from workbench.mocap.body_nodes import body_nodes, node_positions
 from workbench.mocap.motion import Motion, check_motion
-from workbench.mocap.sides import LEFT, RIGHT, joint_sides
+from workbench.mocap.sides import LEFT, RIGHT
 from workbench.validation import control_point_indices
-
-#: Radius of a head as a share of the body's height: about that of a grown-up.
-_HEAD_RADIUS = 0.062
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,18 +123,14 @@ def stick_figures(
     check_motion(motion)
     chosen = control_point_indices(frames, len(motion), name="frames")
     view = view or best_view(motion, chosen)
-    skeleton = motion.skeleton
-    nodes = np.concatenate([joint_positions(motion), end_site_positions(motion)], axis=1)
+    body = body_nodes(motion.skeleton)
+    nodes = node_positions(motion)
     ground = nodes[..., 1].min()
     nodes = nodes[chosen]
     if in_place:
         nodes = nodes - nodes[:, :1] * [1.0, 0.0, 1.0]
-    sites = skeleton.end_sites
-    parents = np.array([*skeleton.parents, *(site.joint for site in sites)], dtype=np.intp)
-    of_joints = joint_sides(skeleton.names)
-    sides = np.array([*of_joints, *(of_joints[site.joint] for site in sites)])
-    head = _head_bone(skeleton.names, parents)
-    bones = [node for node in range(1, len(parents)) if node != head]
+    parents, sides = np.array(body.parents, dtype=np.intp), np.array(body.sides)
+    bones = [node for node in range(1, len(parents)) if node != body.head]
     lengths = np.linalg.norm(nodes[:, bones] - nodes[:, parents[bones]], axis=2)
     bones = [node for node, length in zip(bones, lengths.max(axis=0), strict=True) if length > 0]
     ends = np.stack([nodes[:, parents[bones]], nodes[:, bones]], axis=2)
@@ -146,27 +140,18 @@ def stick_figures(
     on_ground[:, 1] = ground
     height = _body_height(motion)
     heads = np.empty((len(nodes), 0, 2))
-    if head is not None:
-        heads = view.project((nodes[:, [head]] + nodes[:, [parents[head]]]) / 2)
+    if body.head >= 0:
+        heads = view.project((nodes[:, [body.head]] + nodes[:, [parents[body.head]]]) / 2)
     return StickFigures(
         segments=view.project(ends),
         sides=tuple(sides[bones].tolist()),
         heads=heads,
-        head_radius=_HEAD_RADIUS * height,
+        head_radius=HEAD_RADIUS * height,
         shadows=view.project(dropped),
         roots=view.project(on_ground),
         nearer=_nearer_sides(view.nearness(nodes), sides),
         body_height=height,
     )
-
-
-def _head_bone(names: tuple[str, ...], parents: NDArray[np.intp]) -> int | None:
-    """Find the end site of the joint called head; the head is drawn around that bone."""
-    n_joints = len(names)
-    for site in range(n_joints, len(parents)):
-        if names[parents[site]].rpartition(":")[2].lower().endswith("head"):
-            return site
-    return None
 
 
 def _body_height(motion: Motion) -> float:
@@ -177,8 +162,7 @@ def _body_height(motion: Motion) -> float:
         root_translation=np.zeros((1, 3)),
         joint_translations={},
     )
-    nodes = np.concatenate([joint_positions(rest), end_site_positions(rest)], axis=1)
-    return float(np.ptp(nodes, axis=1).max()) or 1.0
+    return float(np.ptp(node_positions(rest), axis=1).max()) or 1.0
 
 
 def _nearer_sides(nearness: NDArray[np.float64], sides: NDArray[np.str_]) -> tuple[str, ...]:

@@ -15,16 +15,25 @@ import plotly.graph_objects as go
 from numpy.typing import ArrayLike, NDArray
 
 from workbench.errors import WorkbenchError
-from workbench.figures.stick_drawing import SHADOW, circle_points, hide_axes, segment_path
+from workbench.figures.stick_drawing import (
+    SHADOW,
+    circle_points,
+    hide_axes,
+    segment_path,
+    stroke_trace,
+)
 from workbench.figures.stick_figures import StickFigures, stick_figures
+from workbench.figures.stick_look import PAPER, Stroke, limb_strokes, limb_width
 from workbench.figures.style import BLUE, TEMPLATE
 from workbench.figures.views import View, best_view
 from workbench.files import write_atomically
 from workbench.mocap.motion import Motion
+from workbench.mocap.sides import MIDDLE, RIGHT
 from workbench.validation import whole_number
 
-#: Grey of the second pose and of the last, between which the others fade.
-_EARLY, _LATE = 205, 30
+#: Grey of the second pose, which must still be seen on white, and of the last; the others
+#: fade between them.
+_EARLY, _LATE = 145, 20
 
 #: Least way from one pose to the next, as a share of the body's height; a motion that
 #: stays where it is would else be one heap of limbs.
@@ -116,14 +125,20 @@ def thumbnail(motion: Motion, keyframes: ArrayLike, *, view: View | None = None)
     composite = compose(motion, keyframes, view)
     left, bottom, right, top = composite.box
     height = max(150, min(420, round(970 * (top - bottom) / (right - left))))
-    width = max(1.5, 0.018 * composite.figures.body_height * height / (top - bottom))
+    width = limb_width(composite.figures.body_height * height / (top - bottom))
     figure = go.Figure(layout={"template": TEMPLATE})
-    figure.add_trace(_lines(segment_path(composite.figures.shadows), SHADOW, 1.2 * width))
+    figure.add_trace(
+        stroke_trace(
+            segment_path(composite.figures.shadows), Stroke(SHADOW, 1.2 * width), hoverinfo="skip"
+        )
+    )
     for pose, (color, frame) in enumerate(zip(composite.colors, composite.frames, strict=True)):
-        limbs = segment_path(composite.figures.segments[pose])
-        # A white seam keeps each pose apart from those behind it.
-        figure.add_trace(_lines(limbs, "white", 2.2 * width))
-        figure.add_trace(_lines(limbs, color, width, f"frame {frame}"))
+        for bones, stroke, named in _strokes(composite.figures.sides, color, width):
+            path = segment_path(composite.figures.segments[pose, bones])
+            name = (
+                {"name": f"frame {frame}", "hoverinfo": "name"} if named else {"hoverinfo": "skip"}
+            )
+            figure.add_trace(stroke_trace(path, stroke, **name))
         for center in composite.figures.heads[pose]:
             figure.add_trace(_head(center, composite.figures.head_radius, color))
     hide_axes(figure)
@@ -171,7 +186,7 @@ def thumbnail_svg(
     left, bottom, right, top = composite.box
     scale = height / (top - bottom)
     corner = np.array([left, top])
-    width = max(1.0, 0.018 * figures.body_height * scale)
+    width = limb_width(figures.body_height * scale)
     picture_width = round(scale * (right - left), 1)
     name = escape(motion.name or "motion")
     parts = [
@@ -179,18 +194,22 @@ def thumbnail_svg(
         f'height="{height}" viewBox="0 0 {picture_width:g} {height}">',
         f"<title>{name}</title>",
         f"<desc>{len(figures)} poses of {name}, frames {composite.frames[0]} to "
-        f"{composite.frames[-1]}; the first is blue, later ones are darker.</desc>",
+        f"{composite.frames[-1]}; the first is blue, later ones are darker, "
+        "right limbs are open or dashed.</desc>",
         '<rect width="100%" height="100%" fill="white"/>',
         '<g fill="none" stroke-linecap="round">',
         f'<path stroke="{SHADOW}" stroke-width="{1.2 * width:.2f}" '
         f'd="{_svg_path((figures.shadows - corner) * [scale, -scale])}"/>',
     ]
     for pose, (color, frame) in enumerate(zip(composite.colors, composite.frames, strict=True)):
-        limbs = _svg_path((figures.segments[pose] - corner) * [scale, -scale])
+        limbs = (figures.segments[pose] - corner) * [scale, -scale]
         parts.append(f"<g><title>frame {frame}</title>")
-        for stroke, times in (("white", 2.2), (color, 1.0)):
-            thick = f"{times * width:.2f}"
-            parts.append(f'<path stroke="{stroke}" stroke-width="{thick}" d="{limbs}"/>')
+        parts += [
+            f'<path stroke="{stroke.color}" stroke-width="{stroke.width:.2f}" '
+            + f'stroke-dasharray="{stroke.dash}" ' * bool(stroke.dash)
+            + f'd="{_svg_path(limbs[bones])}"/>'
+            for bones, stroke, _ in _strokes(figures.sides, color, width)
+        ]
         for x, y in (figures.heads[pose] - corner) * [scale, -scale]:
             parts.append(
                 f'<circle cx="{x:.1f}" cy="{y:.1f}" r="{figures.head_radius * scale:.1f}" '
@@ -235,20 +254,15 @@ def _tones(n_poses: int) -> tuple[str, ...]:
     return (BLUE, *(f"#{grey:02x}{grey:02x}{grey:02x}" for grey in greys.tolist()))
 
 
-def _lines(
-    path: tuple[list[float | None], list[float | None]], color: str, width: float, name: str = ""
-) -> go.Scatter:
-    return go.Scatter(
-        x=path[0],
-        y=path[1],
-        mode="lines+markers",
-        # Dots as wide as the line make its joints round.
-        marker={"size": width, "color": color, "line": {"width": 0}},
-        line={"color": color, "width": width},
-        name=name,
-        hoverinfo="name" if name else "skip",
-        showlegend=False,
-    )
+def _strokes(
+    sides: tuple[str, ...], color: str, width: float
+) -> list[tuple[NDArray[np.bool_], Stroke, bool]]:
+    """List the strokes of a pose: the bones, how they are drawn, whether they stand for it."""
+    right = np.array(sides) == RIGHT
+    # A white seam keeps each pose apart from those behind it.
+    seam = (np.ones(len(sides), dtype=bool), Stroke(PAPER, 2.2 * width), False)
+    solid = [(~right, stroke, True) for stroke in limb_strokes(MIDDLE, color, width)]
+    return [seam, *solid, *((right, s, False) for s in limb_strokes(RIGHT, color, width))]
 
 
 def _head(center: NDArray[np.float64], radius: float, color: str) -> go.Scatter:
@@ -259,7 +273,7 @@ def _head(center: NDArray[np.float64], radius: float, color: str) -> go.Scatter:
         mode="lines",
         fill="toself",
         fillcolor=color,
-        line={"color": "white", "width": 1},
+        line={"color": PAPER, "width": 1},
         hoverinfo="skip",
         showlegend=False,
     )

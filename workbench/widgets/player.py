@@ -10,9 +10,8 @@ import numpy as np
 import traitlets
 
 from workbench.errors import WorkbenchError
-from workbench.mocap.kinematics import end_site_positions, joint_positions
+from workbench.mocap.body_nodes import body_nodes, node_positions
 from workbench.mocap.motion import Motion, check_motion
-from workbench.mocap.sides import joint_sides
 from workbench.widgets.arrays import ArrayTrait, SelectionTrait
 from workbench.widgets.module import es_module, style_sheet
 
@@ -34,6 +33,8 @@ class MotionPlayer(anywidget.AnyWidget):
         Parent node of each node, -1 for the root; the same in all motions.
     sides : list of {"left", "right", "middle"}
         Which side of the body each node is on.
+    head : int
+        The far end of the bone around which a head is drawn; -1 for none.
     frame_time : float
         Seconds between frames.
     keyframes : array of shape (n_keyframes,), int32
@@ -59,13 +60,14 @@ class MotionPlayer(anywidget.AnyWidget):
         Views with the same channel show the same frame.
     """
 
-    _esm = es_module("stick_figure", "stage", "time_bar", "player")
+    _esm = es_module("stick_figure", "orbit", "stage", "time_bar", "player")
     _css = style_sheet()
 
     motions = traitlets.List(traitlets.Unicode()).tag(sync=True)
     positions = ArrayTrait("<f4")
     parents = traitlets.List(traitlets.Int()).tag(sync=True)
     sides = traitlets.List(traitlets.Unicode()).tag(sync=True)
+    head = traitlets.Int(-1).tag(sync=True)
     frame_time = traitlets.Float(1.0).tag(sync=True)
     keyframes = SelectionTrait()
     contacts = traitlets.List(traitlets.Dict()).tag(sync=True)
@@ -90,7 +92,7 @@ def motion_traits(motions: Mapping[str, Motion]) -> dict[str, Any]:
     Returns
     -------
     dict
-        ``motions``, ``positions``, ``parents``, ``sides`` and ``frame_time``, for
+        ``motions``, ``positions``, ``parents``, ``sides``, ``head`` and ``frame_time``, for
         :class:`MotionPlayer`.
 
     Raises
@@ -119,16 +121,12 @@ def motion_traits(motions: Mapping[str, Motion]) -> dict[str, Any]:
                 f"motions: {name!r} has another skeleton, length or frame time than "
                 f"{next(iter(motions))!r}, want motions that play in step"
             )
-    ends = [site.joint for site in skeleton.end_sites]
-    names = [*skeleton.names, *(skeleton.names[joint] for joint in ends)]
-    nodes = [
-        np.concatenate([joint_positions(motion), end_site_positions(motion)], axis=1)
-        for motion in motions.values()
-    ]
+    body = body_nodes(skeleton)
     return {
         "motions": list(motions),
-        "positions": np.array(nodes, dtype=np.float32),
-        "parents": [*skeleton.parents.tolist(), *ends],
-        "sides": joint_sides(names),
+        "positions": np.array([node_positions(m) for m in motions.values()], dtype=np.float32),
+        "parents": body.parents,
+        "sides": body.sides,
+        "head": body.head,
         "frame_time": float(first.frame_time),
     }

@@ -23,6 +23,8 @@ class PoseView(anywidget.AnyWidget):
         Parent node of each node, -1 for the root.
     sides : list of {"left", "right", "middle"}
         Which side of the body each node is on.
+    head : int
+        The far end of the bone around which a head is drawn; -1 for none.
     frame_time : float
         Seconds between frames.
     frame : int
@@ -31,12 +33,13 @@ class PoseView(anywidget.AnyWidget):
         Views with the same channel follow the hovered sample.
     """
 
-    _esm = es_module("pose")
+    _esm = es_module("stick_figure", "orbit", "pose")
     _css = style_sheet()
 
     positions = ArrayTrait("<f4")
     parents = traitlets.List(traitlets.Int()).tag(sync=True)
     sides = traitlets.List(traitlets.Unicode()).tag(sync=True)
+    head = traitlets.Int(-1).tag(sync=True)
     frame_time = traitlets.Float(1.0).tag(sync=True)
     frame = traitlets.Int(0).tag(sync=True)
     channel = traitlets.Unicode("").tag(sync=True)

@@ -27,6 +27,8 @@ class ReconstructionView(anywidget.AnyWidget):
         Of joints and end sites, -1 for the root; empty for tables.
     sides : list of {"left", "right", "middle"}
         Which side of the body each node is on.
+    head : int
+        The far end of the bone around which a head is drawn; -1 for none.
     offsets : array of shape (n_nodes, 3), float64
         Each node relative to its parent, in file units.
     root : array of shape (3,), float64
@@ -52,7 +54,13 @@ class ReconstructionView(anywidget.AnyWidget):
     """
 
     _esm = es_module(
-        "places", "back_projection", "kinematics", "stick_figure", "value_rows", "reconstruction"
+        "places",
+        "back_projection",
+        "kinematics",
+        "stick_figure",
+        "orbit",
+        "value_rows",
+        "reconstruction",
     )
     _css = style_sheet()
 
@@ -62,6 +70,7 @@ class ReconstructionView(anywidget.AnyWidget):
     high = ArrayTrait("<f8")
     parents = traitlets.List(traitlets.Int()).tag(sync=True)
     sides = traitlets.List(traitlets.Unicode()).tag(sync=True)
+    head = traitlets.Int(-1).tag(sync=True)
     offsets = ArrayTrait("<f8")
     root = ArrayTrait("<f8")
     weights = ArrayTrait("<f8")

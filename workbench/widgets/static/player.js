@@ -20,7 +20,7 @@ class Player {
     const stage = element("div", { class: "wb-player-box" }, [this.canvas, this.message]);
     root.append(this.names, stage, this.bar.canvas, this.controls, this.sides, element("p", { class: "wb-hint", text: PLAYER_HINT }));
     this.read();
-    onTraits(model, ["positions", "parents", "sides", "motions", "frame_time", "keyframes", "contacts", "description"], () => this.read(), signal);
+    onTraits(model, ["positions", "parents", "sides", "head", "motions", "frame_time", "keyframes", "contacts", "description"], () => this.read(), signal);
     onTraits(model, ["frame"], () => model.get("frame") !== this.frame && this.seek(model.get("frame")), signal);
     onTraits(model, ["speed", "loop", "overlaid"], () => this.showControls(), signal);
     onHover(model, (frame) => !this.announcing && frame >= 0 && this.seek(frame), signal);
@@ -50,14 +50,7 @@ class Player {
     this.overlay = button("Overlay", "Draw the motions over each other", () => this.change("overlaid", !this.model.get("overlaid")));
     this.speed = element("select", { "aria-label": "Speed" }, SPEEDS_OF_PLAY.map(([value, text]) => element("option", { value: String(value), text })));
     this.speed.addEventListener("change", () => this.change("speed", Number(this.speed.value)), { signal: this.signal });
-    const zoom = element("span", { class: "wb-group", role: "group", "aria-label": "View" }, [
-      button("−", "Zoom out", () => this.zoom(1 / 1.25)),
-      button("+", "Zoom in", () => this.zoom(1.25)),
-      button("Reset view", "Reset view", () => {
-        this.stage?.resetView();
-        this.draw();
-      }),
-    ]);
+    const zoom = orbitButtons(() => this.stage, () => this.draw(), this.signal);
     this.controls = element("div", { class: "wb-bar wb-player-controls" }, [this.toggle, this.keys, this.speed, this.looping, this.overlay, zoom, this.readout]);
   }
 
@@ -76,6 +69,7 @@ class Player {
     if (!same || !this.stage) this.measure(parents);
     this.stage.parents = parents;
     this.stage.sides = model.get("sides");
+    this.stage.head = model.get("head");
     this.bar.take({
       frames: this.frames,
       keyframes: [...typed(model.get("keyframes"), Int32Array)].filter((key) => key < this.frames),
@@ -92,7 +86,7 @@ class Player {
   measure(parents) {
     const before = this.stage;
     this.stage = new Stage({ parents, sides: [] });
-    if (before) Object.assign(this.stage, { turn: before.turn, tilt: before.tilt, zoom: before.zoom });
+    if (before) this.stage.lookAs(before);
     this.stage.measure(Array.from({ length: this.motions * this.frames }, (_, i) => this.block(i)));
   }
 
@@ -193,42 +187,14 @@ class Player {
 
   // What a person does.
 
-  zoom(factor) {
-    this.stage.zoomBy(factor);
-    this.draw();
-  }
-
-  turn(dx, dy) {
-    this.stage.turnBy(dx, dy);
-    this.draw();
-  }
-
   listen() {
-    const on = (node, type, act, options = {}) => node.addEventListener(type, act, { signal: this.signal, ...options });
-    let from = null;
-    on(this.canvas, "pointerdown", (event) => {
-      this.canvas.setPointerCapture(event.pointerId);
-      from = [event.clientX, event.clientY];
-    });
-    on(this.canvas, "pointerup", () => (from = null));
-    on(this.canvas, "pointermove", (event) => {
-      if (!from || !event.buttons) return;
-      this.turn((event.clientX - from[0]) * 0.01, (event.clientY - from[1]) * 0.01);
-      from = [event.clientX, event.clientY];
-    });
-    // Only where the person is at work here: elsewhere the wheel scrolls the page.
-    on(this.canvas, "wheel", (event) => {
-      if (document.activeElement !== this.canvas) return;
-      event.preventDefault();
-      this.zoom(1.0015 ** -event.deltaY);
-    }, { passive: false });
-    on(this.root, "keydown", (event) => this.key(event));
+    orbitByMouse(this.canvas, () => this.stage, () => this.draw(), this.signal);
+    this.root.addEventListener("keydown", (event) => this.key(event), { signal: this.signal });
   }
 
   key(event) {
     if (event.target.closest("select") || event.ctrlKey || event.metaKey || event.altKey) return;
     const isButton = event.target.closest("button");
-    const turns = { ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
     const steps = {
       ArrowLeft: () => this.step(this.frame - 1),
       ArrowRight: () => this.step(this.frame + 1),
@@ -238,12 +204,10 @@ class Player {
       PageDown: () => this.step(this.bar.keyNear(this.frame, 1)),
       Home: () => this.step(0),
       End: () => this.step(this.frames - 1),
-      "+": () => this.zoom(1.25),
-      "-": () => this.zoom(1 / 1.25),
       " ": () => this.play(!this.playing),
     };
-    const act = event.shiftKey && event.key in turns ? () => this.turn(...turns[event.key]) : steps[event.key];
-    if (!act) return;
+    const act = event.shiftKey && event.key in TURNS ? undefined : steps[event.key];
+    if (!act) return void (orbitByKey(event, this.stage) && this.draw());
     // JupyterLab would take the key as a command to its cells.
     event.stopPropagation();
     if (isButton && event.key === " ") return; // the button's own
@@ -255,13 +219,11 @@ class Player {
 
   redraw() {
     const theme = themeOf(this.root);
-    this.colours = { left: theme.palette[0], right: theme.palette[1], middle: theme.text };
+    this.colours = stickColours(theme);
     this.bar.drawLayer(theme, getComputedStyle(this.root).getPropertyValue("--wb-brand") || theme.palette[0]);
-    const present = new Set(this.model.get("sides"));
-    const key = (side) => element("span", {}, [element("i", { style: `background: ${this.colours[side]}` }), side]);
     const marks = this.bar.keyframes.length ? [element("span", { text: "◆ keyframe" })] : [];
     if (this.bar.contacts.length) marks.push(element("span", { text: "▬ foot on the ground" }));
-    this.sides.replaceChildren(...["left", "right"].filter((side) => present.has(side)).map(key), ...marks);
+    this.sides.replaceChildren(...sideKey(this.model.get("sides"), this.colours), ...marks);
     this.draw();
   }
 

@@ -1,6 +1,5 @@
 // A sample beside what is rebuilt of it at the place that the plane speaks of.
 
-const TURN_HINT = "Drag, or use the arrow keys, to turn the figures.";
 const FIGURES_TALL = 320;
 
 class Reconstruction {
@@ -12,7 +11,7 @@ class Reconstruction {
     this.note = element("p", { class: "wb-hint" });
     root.append(this.caption, this.detail, this.body, this.note);
     this.read();
-    const traits = ["original", "columns", "low", "high", "parents", "sides", "offsets", "root", "weights"];
+    const traits = ["original", "columns", "low", "high", "parents", "sides", "head", "offsets", "root", "weights"];
     onTraits(model, [...traits, "kernel", "epsilon", "centers", "coefficients", "note"], () => this.read(), signal);
     onTraits(model, ["rebuilt", "rebuilt_at"], () => this.show(), signal);
     onPlace(model, (place) => {
@@ -54,35 +53,21 @@ class Reconstruction {
     this.kinematics = new Kinematics(skeleton);
     this.own = this.kinematics.place(this.original, this.rootPlace).slice();
     const before = this.figures;
-    this.figures = new StickFigures({ parents, sides: this.model.get("sides") });
-    if (before) Object.assign(this.figures, { turn: before.turn, tilt: before.tilt });
+    this.figures = new StickFigures({ parents, sides: this.model.get("sides"), head: this.model.get("head") });
+    if (before) this.figures.lookAs(before);
     this.figures.measure([this.own]);
     if (!this.canvas) this.makeCanvas();
-    this.body.replaceChildren(element("div", { class: "wb-rec-names" }, [element("span", { text: "original" }), element("span", { text: "rebuilt" })]), this.canvas);
+    const names = ["original", "rebuilt"].map((text) => element("span", { text }));
+    this.body.replaceChildren(element("div", { class: "wb-rec-names" }, names), this.canvas, this.under);
   }
 
   makeCanvas() {
-    this.canvas = element("canvas", { tabindex: "0", role: "application", "aria-label": `Stick figures of the original and the rebuilt pose. ${TURN_HINT}`, title: TURN_HINT });
-    const on = (type, act) => this.canvas.addEventListener(type, act, { signal: this.signal });
-    let from = null;
-    const turn = (dx, dy) => {
-      this.figures.turnBy(dx, dy);
-      this.show();
-    };
-    on("pointerdown", (event) => (from = [event.clientX, event.clientY]));
-    on("pointerup", () => (from = null));
-    on("pointermove", (event) => {
-      if (!from || !event.buttons) return;
-      turn((event.clientX - from[0]) * 0.01, (event.clientY - from[1]) * 0.01);
-      from = [event.clientX, event.clientY];
-    });
-    on("keydown", (event) => {
-      const steps = { ArrowLeft: [-0.15, 0], ArrowRight: [0.15, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
-      if (!(event.key in steps)) return;
-      turn(...steps[event.key]);
-      event.preventDefault();
-      event.stopPropagation();
-    });
+    this.canvas = element("canvas", { tabindex: "0", role: "application", "aria-label": `Stick figures of the original and the rebuilt pose. ${ORBIT_HINT}`, title: ORBIT_HINT });
+    const [figures, redraw] = [() => this.figures, () => this.show()];
+    orbitByMouse(this.canvas, figures, redraw, this.signal);
+    this.canvas.addEventListener("keydown", (event) => orbitByKey(event, this.figures) && redraw(), { signal: this.signal });
+    this.sides = element("div", { class: "wb-sides" });
+    this.under = element("div", { class: "wb-bar" }, [this.sides, orbitButtons(figures, redraw, this.signal)]);
   }
 
   /** What is rebuilt, and where: in the browser if it can, else what Python sent last. */
@@ -115,8 +100,8 @@ class Reconstruction {
     const height = Math.min(FIGURES_TALL, width);
     this.canvas.style.height = `${height}px`;
     const context = fitCanvas(this.canvas, width, height);
-    const theme = themeOf(this.root);
-    const colours = { left: theme.palette[0], right: theme.palette[1], middle: theme.text };
+    const colours = stickColours(themeOf(this.root));
+    this.sides.replaceChildren(...sideKey(this.model.get("sides"), colours));
     const figures = [this.own, ...(rotations ? [this.kinematics.place(rotations, this.rootPlace)] : [])];
     this.figures.draw(context, figures.length > 1 ? figures : [this.own, new Float64Array(0)], width, height, colours);
   }
