@@ -43,6 +43,8 @@ class AuthoringPad(anywidget.AnyWidget):
         Parent of each joint, then of each end site; -1 for the root.
     sides : list of {"left", "right", "middle"}
         Which side of the body each node is on.
+    head : int
+        Node at the far end of the head's bone, -1 for none.
     offsets : array of shape (n_nodes, 3), float64
         Each node relative to its parent, in file units.
     joint_names : list of str
@@ -107,11 +109,32 @@ class AuthoringPad(anywidget.AnyWidget):
         Views with the same channel show the same frame of the trajectory.
     """
 
-    _esm = es_module("stick_figure", "stage", "authoring")
+    _esm = es_module(
+        "back_projection",
+        "kinematics",
+        "colours",
+        "stick_figure",
+        "stage",
+        "orbit",
+        "time_bar",
+        "places",
+        "authoring_fit",
+        "authoring_curve",
+        "authoring_scene",
+        "authoring_plane",
+        "authoring_hands",
+        "authoring_drags",
+        "authoring_pose",
+        "authoring_time",
+        "authoring_tools",
+        "authoring_input",
+        "authoring",
+    )
     _css = style_sheet()
 
     parents = traitlets.List(traitlets.Int()).tag(sync=True)
     sides = traitlets.List(traitlets.Unicode()).tag(sync=True)
+    head = traitlets.Int(-1).tag(sync=True)
     offsets = ArrayTrait("<f8")
     joint_names = traitlets.List(traitlets.Unicode()).tag(sync=True)
     frame_time = traitlets.Float(1.0).tag(sync=True)

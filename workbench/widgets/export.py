@@ -56,6 +56,9 @@ _POLICY = (
 # Traits of every widget that mean nothing outside a notebook.
 _OWN = frozenset(ipywidgets.DOMWidget.class_trait_names())
 
+# Switches of what needs Python: there is none to make another page or to take edits in.
+_NEEDING_PYTHON = ("offers_html", "editable")
+
 
 def html_page(views: Views, *, title: str, text: str = "") -> str:
     """Make a page that holds views and what they need.
@@ -192,8 +195,7 @@ def _packed(view: anywidget.AnyWidget, modules: list[str]) -> dict[str, Any]:
             binary[name] = _text(value)
         else:
             traits[name] = value
-    if "offers_html" in traits:
-        traits["offers_html"] = False  # there is no Python to make the page
+    traits.update({name: False for name in _NEEDING_PYTHON if name in traits})
     try:
         json.dumps(traits, allow_nan=False)
     except (TypeError, ValueError) as error:

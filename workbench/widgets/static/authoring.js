@@ -1,7 +1,382 @@
-// The authoring pad: plane, pose and time of spatial keyframes.
+// The authoring pad: plane, pose and time of spatial keyframes. It joins the parts, keeps the
+// clock, and tells Python of an edit when its gesture has ended.
+
+const FEWEST_MARKERS = 3;
+const LEAP = 0.25; // seconds that may pass between two pictures before time waits
+const ANSWER_WITHIN = 15_000; // milliseconds
+const SCENE_TRAITS = [
+  "parents", "sides", "head", "offsets", "joint_names", "frame_time", "kernel", "epsilon", "markers", "marker_poses", "marker_roots",
+  "marker_frames", "marker_names", "influence", "embedding", "points", "times", "follows", "ghost", "roots", "answered",
+];
+
+class AuthoringPad {
+  constructor(model, root, signal) {
+    Object.assign(this, { model, root, signal, scene: null, place: [0, 0], atTime: true, time: 0, hovered: -1 });
+    Object.assign(this, { playing: false, holding: false, waiting: false, pending: 0, request: 0, radius: 0 });
+    const hintId = `wb-hint-${Math.random().toString(36).slice(2)}`;
+    this.tools = new PadTools(this, signal);
+    this.plane = new PadPlane(hintId);
+    this.pose = new PadPose(this, signal);
+    this.clock = new PadTime(this, signal);
+    this.hands = { scrub: new ScrubHand(this), markers: new MarkerHand(this), deform: new DeformHand(this), draw: new DrawHand(this) };
+    this.readout = element("span", { class: "wb-detail" });
+    this.message = element("div", { class: "wb-pad-message", role: "status" });
+    this.live = element("div", { class: "wb-live", role: "status", "aria-live": "polite" });
+    this.hint = element("p", { class: "wb-hint", id: hintId });
+    const under = element("div", { class: "wb-bar wb-pad-under" }, [this.readout, this.tools.radius]);
+    const left = element("div", { class: "wb-pad-left" }, [this.plane.plot, under]);
+    const views = element("div", { class: "wb-pad-views" }, [left, this.pose.node]);
+    root.append(this.tools.node, views, this.message, this.clock.node, this.hint, this.live);
+    this.input = new PadInput(this, signal);
+    this.arrive();
+    onTraits(model, SCENE_TRAITS, () => this.arrive(), signal);
+    onTraits(model, ["selected"], () => this.takeSelected(), signal);
+    onTraits(model, ["mode", "undo_label", "redo_label", "editable", "message", "radius", "loop", "speed", "show_ghost"], () => this.showControls(), signal);
+    onTraits(model, ["time"], () => model.get("time") !== this.time && this.seek(model.get("time")), signal);
+    onHover(model, (frame) => !this.announcing && frame >= 0 && this.scene && this.seek(this.timeOf(frame)), signal);
+    watchTheme(() => this.redraw(), signal);
+    const observer = new ResizeObserver(() => this.plane.plot.clientWidth !== this.plane.width && this.redraw());
+    observer.observe(root);
+    signal.addEventListener("abort", () => {
+      observer.disconnect();
+      cancelAnimationFrame(this.request);
+      clearTimeout(this.patience);
+    });
+  }
+
+  // What comes from Python, and what goes there.
+
+  /** Take the traits over, unless the hand is at work or Python has still to answer. */
+  arrive() {
+    const answered = this.model.get("answered") >= this.pending;
+    if (answered) clearTimeout(this.patience);
+    this.waiting = this.holding || !answered;
+    if (!this.waiting) this.read();
+  }
+
+  read() {
+    const scene = new AuthoredScene(this.model);
+    // Traits of another clip may come one after the other; what does not fit is not drawn.
+    if (!scene.fits) return this.showControls();
+    const first = !this.scene;
+    const newBody = first || ["parents", "ghost", "sides", "head"].some((name) => this.model.get(name) !== this.seen[name]);
+    this.seen = Object.fromEntries(["parents", "ghost", "sides", "head"].map((name) => [name, this.model.get(name)]));
+    this.scene = scene;
+    this.radius ||= this.model.get("radius") || this.radiusAt(0.45);
+    if (this.atTime) this.time = first ? this.model.get("time") : this.time;
+    this.time = Math.max(scene.start, Math.min(scene.start + scene.duration, this.time));
+    if (this.atTime) this.place = scene.placeAt(this.time);
+    if (newBody) this.pose.read(scene, this.model);
+    this.selected = Math.min(this.model.get("selected"), scene.count - 1);
+    this.plane.resize();
+    if (!this.plane.view || newBody || !this.plane.holds(scene)) this.plane.fit(scene);
+    this.clock.read(scene);
+    this.showControls();
+  }
+
+  tell(kind, details = {}) {
+    const number = Math.max(this.pending, this.model.get("answered"), this.model.get("edit").number ?? 0) + 1;
+    this.pending = number;
+    this.save("edit", { number, kind, ...details });
+    clearTimeout(this.patience);
+    this.patience = setTimeout(() => this.say("Python has not answered yet: it is busy or has stopped. What you see is kept until it does.", true), ANSWER_WITHIN);
+  }
+
+  save(name, value) {
+    this.model.set(name, value);
+    this.model.save_changes();
+  }
+
+  change(name, value) {
+    if (this.holding) this.input.abandon();
+    this.save(name, value);
+    this.showControls();
+  }
+
+  /** Keep what Python sends until the hand lets go. */
+  hold() {
+    this.holding = true;
+  }
+
+  /** Let go; with `putBack` everything is as Python has it, else as the hand has left it. */
+  letGo(putBack = false) {
+    this.holding = false;
+    if (putBack) this.arrive();
+  }
+
+  // What a person asks for.
+
+  get mode() {
+    return this.model.get("editable") && this.model.get("mode") in this.hands ? this.model.get("mode") : "scrub";
+  }
+
+  get hand() {
+    return this.hands[this.mode];
+  }
+
+  select(marker) {
+    if (marker === this.selected) return;
+    this.selected = marker;
+    this.save("selected", marker);
+    this.showSelected();
+  }
+
+  takeSelected() {
+    if (!this.scene || this.holding) return;
+    this.selected = Math.min(this.model.get("selected"), this.scene.count - 1);
+    this.showSelected();
+  }
+
+  showSelected() {
+    this.pose.setAngles([0, 0, 0]);
+    this.tools.show();
+    this.drawBase();
+    this.drawTop();
+    this.pose.draw();
+  }
+
+  addMarker(place) {
+    const { scene, plane } = this;
+    if (!scene || this.holding) return;
+    const frame = plane.nearestOn(scene.embedding, plane.toPixel(place));
+    const at = frame >= 0 ? [scene.embedding[2 * frame], scene.embedding[2 * frame + 1]] : [...place];
+    const pose = scene.poseAt(at);
+    const taken = frame >= 0 ? scene.markerFrames.includes(frame) : plane.nearestMarker(scene, plane.toPixel(at), 1) >= 0;
+    if (taken || !pose) return this.say(pose ? "There is a marker already: look at another place first." : scene.problem, true);
+    const [rotations, root] = [[...pose.rotations], [...pose.root]];
+    scene.addMarker(at, frame >= 0 ? frame : null, rotations, root);
+    this.selected = scene.count - 1;
+    this.look(at);
+    this.showSelected();
+    this.say("marker added");
+    this.tell("add", { at, frame: frame >= 0 ? frame : null, rotations, root });
+  }
+
+  removeMarker() {
+    const { scene, selected } = this;
+    if (!scene || selected < 0 || this.holding) return;
+    if (scene.count <= FEWEST_MARKERS) return this.say(`At least ${FEWEST_MARKERS} markers must stay.`, true);
+    this.say(`${scene.nameOf(selected)} deleted`);
+    scene.removeMarker(selected);
+    this.selected = -1;
+    this.showSelected();
+    this.tell("remove", { marker: selected });
+  }
+
+  /** A radius between the shortest and the longest that make sense, and back. */
+  radiusAt(part) {
+    const [low, high] = this.radii;
+    return low * (high / low) ** part;
+  }
+
+  partOf(radius) {
+    const [low, high] = this.radii;
+    return Math.log(radius / low) / Math.log(high / low);
+  }
+
+  get radii() {
+    const long = this.scene ? lengthsAlong(this.scene.points).at(-1) : 1;
+    return [0.005 * (long || 1), long || 1];
+  }
+
+  setRadius(radius) {
+    const [low, high] = this.radii;
+    this.radius = Math.max(low, Math.min(high, radius));
+    this.tools.show();
+    this.drawTop();
+  }
+
+  zoom(factor, pixel) {
+    if (!this.scene) return;
+    this.plane.zoomAt(factor, pixel);
+    this.drawBase();
+    this.drawTop();
+  }
+
+  showAll() {
+    if (!this.scene) return;
+    this.plane.fit(this.scene);
+    this.drawBase();
+    this.drawTop();
+  }
+
+  // Time.
+
+  timeOf(frame) {
+    return this.scene.start + frame * this.scene.frameTime;
+  }
+
+  play(on) {
+    on = on && this.scene !== null;
+    if (on === this.playing) return;
+    this.playing = on;
+    this.clock.showControls();
+    cancelAnimationFrame(this.request);
+    if (!on) return this.save("time", this.time);
+    if (this.time >= this.scene.start + this.scene.duration - 1e-9) this.time = this.scene.start;
+    this.last = null;
+    this.request = requestAnimationFrame((now) => this.tick(now));
+  }
+
+  pause() {
+    this.play(false);
+  }
+
+  /** Advance the clock by the time that has passed, and show where it is. */
+  tick(now) {
+    if (!this.playing) return;
+    const passed = this.last === null ? 0 : Math.min(LEAP, (now - this.last) / 1000);
+    this.last = now;
+    const { start, duration } = this.scene;
+    let time = this.time + passed * this.model.get("speed");
+    if (time > start + duration && !this.model.get("loop")) {
+      this.seek(start + duration);
+      return this.pause();
+    }
+    if (time > start + duration) time = start + ((time - start) % duration);
+    this.seek(time);
+    this.request = requestAnimationFrame((later) => this.tick(later));
+  }
+
+  /** Show a time; with `tell`, it stays and Python hears of it. */
+  seek(time, tell = false) {
+    if (!this.scene) return;
+    const { start, duration } = this.scene;
+    this.time = Math.max(start, Math.min(start + duration, time));
+    this.atTime = true;
+    this.place = this.scene.placeAt(this.time);
+    this.drawMoving();
+    this.clock.draw();
+    if (tell) this.save("time", this.time);
+    const frame = this.scene.frameAt(this.time);
+    if (!this.model.get("channel") || frame === this.announced) return;
+    this.announcing = true;
+    announceHover(this.model.get("channel"), (this.announced = frame));
+    this.announcing = false;
+  }
+
+  scrub(time, done) {
+    this.pause();
+    this.seek(time, done);
+  }
+
+  step(frames) {
+    this.scrub(this.timeOf(this.scene.frameAt(this.time) + frames), true);
+  }
+
+  /** Show the pose at a place of the plane; while playing, the clock's goes before. */
+  look(place) {
+    if (this.playing && !this.holding) return this.drawTop();
+    this.place = place;
+    this.atTime = false;
+    this.drawMoving();
+  }
+
+  /** Show the pose at the time again. */
+  lookAway() {
+    this.hovered = -1;
+    if (this.scene && !this.playing) this.seek(this.time);
+  }
+
+  /** The original's positions beside what is shown: at the same time, or in the nearest frame. */
+  ghost() {
+    const { scene, plane } = this;
+    if (this.atTime) return scene.ghostAt(this.time);
+    const frame = plane.nearestOn(scene.embedding, plane.toPixel(this.place));
+    return frame >= 0 ? scene.ghostAt(scene.start + frame * scene.frameTime) : null;
+  }
+
+  // Pictures.
+
+  showControls() {
+    const { model } = this;
+    const { hand } = this;
+    if (model.get("radius") > 0 && !this.holding) this.radius = model.get("radius");
+    this.hint.textContent = `${hand.hint} ${PAD_HINT}`;
+    this.plane.plot.dataset.mode = this.mode;
+    this.clock.showControls();
+    this.redraw();
+  }
+
+  redraw() {
+    const brand = getComputedStyle(this.root).getPropertyValue("--wb-brand").trim();
+    this.theme = { ...themeOf(this.root), brand };
+    this.tools.show();
+    const { plot } = this.plane;
+    plot.style.height = `${Math.round(Math.min(PAD_TALL[1], Math.max(PAD_TALL[0], 0.8 * plot.clientWidth)))}px`;
+    this.plane.resize();
+    this.pose.resize();
+    this.showMessage();
+    if (!this.scene) return;
+    plot.setAttribute("aria-label", this.describe());
+    this.drawBase();
+    this.drawMoving();
+    this.clock.redraw();
+  }
+
+  describe() {
+    const { scene } = this;
+    return `Plane with ${scene.count} markers and a trajectory of ${scene.duration.toFixed(1)} seconds, mode ${PAD_MODES[this.mode][0]}`;
+  }
+
+  drawBase() {
+    if (this.scene && this.plane.width) this.plane.drawBase(this.scene, this);
+    if (this.holding && this.scene) this.showProblem();
+  }
+
+  /** What follows the mouse and the clock: the marks on the plane and the pose. */
+  drawMoving() {
+    this.drawTop();
+    this.pose.draw();
+    this.showProblem();
+    const [x, y] = this.place;
+    const marker = this.hovered >= 0 ? `${this.scene.nameOf(this.hovered)} · ` : "";
+    this.readout.textContent = `${marker}${this.atTime ? `time ${(this.time - this.scene.start).toFixed(2)} s` : "place"} · ${brief(x)}, ${brief(y)}`;
+  }
+
+  drawTop() {
+    if (!this.scene || !this.plane.width) return;
+    const { hand, hovered, selected, theme } = this;
+    this.plane.drawTop(this.scene, {
+      place: this.atTime ? null : this.place,
+      now: this.scene.placeAt(this.time),
+      hovered, selected, theme,
+      stretch: hand.stretch,
+      pen: hand.pen,
+    });
+  }
+
+  /** Show time and handles again, after times have changed. */
+  showTime() {
+    this.clock.curve.drawLayer();
+    this.seek(this.time);
+  }
+
+  say(text, seen = false) {
+    this.live.textContent = text;
+    if (!seen) return;
+    this.remark = text;
+    this.showMessage();
+  }
+
+  showProblem() {
+    if (this.scene.problem !== this.problem) this.showMessage();
+  }
+
+  showMessage() {
+    this.problem = this.scene?.problem ?? "";
+    const waiting = this.scene ? "" : "No motion yet.";
+    const text = [this.problem, this.remark, this.model.get("message"), waiting].filter(Boolean).join(" ");
+    if (this.message.textContent !== text) this.message.textContent = text;
+  }
+}
 
 export default {
-  render({ el }) {
-    el.append(element("div", { class: "wb wb-pad" }));
+  render({ model, el }) {
+    const stop = new AbortController();
+    const root = element("div", { class: "wb wb-pad" });
+    el.append(root);
+    root.pad = new AuthoringPad(model, root, stop.signal);
+    return () => stop.abort();
   },
 };

@@ -1,0 +1,501 @@
+"""The authoring pad computes what the hand does, and tells Python when it lets go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from tests.browser.authoring_page import (
+    KEYS,
+    MARKERS,
+    PAD,
+    PLOT,
+    answer,
+    array,
+    drag,
+    edit,
+    pad,
+    pixel,
+    place_at,
+)
+from workbench.authoring.trajectories import Trajectory
+from workbench.widgets.export import export_html
+
+pytestmark = pytest.mark.browser
+
+_STAGE = "document.querySelector('.wb-pad-stage').toDataURL()"
+
+
+def shown_angle(page: Any) -> float:
+    """Degrees about z by which the middle joint of the shown pose is turned."""
+    turned = page.evaluate(f"[...{PAD}.scene.poseAt({PAD}.place).rotations]")
+    return float(np.degrees(np.arctan2(turned[9 + 3], turned[9])))
+
+
+# Scrubbing.
+
+
+def test_the_pose_follows_the_mouse(mount: Callable) -> None:
+    """At a marker it is the marker's pose, elsewhere another; nothing is told to Python."""
+    page = mount(pad())
+    pictures = []
+    for marker, degrees in enumerate([0.0, 30.0, 60.0, 90.0]):
+        page.mouse.move(*pixel(page, MARKERS[marker]))
+        assert shown_angle(page) == pytest.approx(degrees, abs=3.0)
+        pictures.append(page.evaluate(_STAGE))
+    assert len(set(pictures)) == 4
+    assert page.evaluate("mounted[0].model.saved") == 0
+
+
+def test_leaving_the_plane_shows_the_time_again(mount: Callable) -> None:
+    """The pose at the mouse is a look aside: the clock's comes back."""
+    page = mount(pad(time=2.0))
+    page.mouse.move(*pixel(page, [5.0, 5.0]))
+    assert not page.evaluate(f"{PAD}.atTime")
+    page.mouse.move(1, 1)
+    assert page.evaluate(f"[{PAD}.atTime, {PAD}.place]") == [True, MARKERS[2].tolist()]
+
+
+def test_a_click_on_the_trajectory_goes_to_its_time(mount: Callable) -> None:
+    """The nearest point's second is shown, and told."""
+    page = mount(pad())
+    page.mouse.click(*pixel(page, MARKERS[1]))
+    assert page.evaluate(f"{PAD}.time") == pytest.approx(1.0)
+    assert page.evaluate("mounted[0].model.get('time')") == pytest.approx(1.0)
+
+
+# Markers.
+
+
+def test_frames_follow_a_dragged_marker(mount: Callable) -> None:
+    """While it is held nothing is told; frames are influence times markers; then "move" is."""
+    page = mount(pad(mode="markers"))
+    start = pixel(page, MARKERS[2])
+    end = (start[0] + 60, start[1] + 40)
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(*end, steps=3)
+    assert edit(page) == {}
+    page.mouse.up()
+    told = edit(page)
+    assert told["kind"] == "move"
+    assert told["marker"] == 2
+    moved = MARKERS.copy()
+    moved[2] = told["to"]
+    np.testing.assert_allclose(told["to"], place_at(page, end), atol=0.3)
+    expected = np.asarray(pad().influence).reshape(-1, 4) @ moved
+    np.testing.assert_allclose(array(page, "points").reshape(-1, 2), expected, atol=1e-9)
+    assert page.evaluate("mounted[0].model.get('selected')") == 2
+
+
+def test_a_dragged_marker_keeps_its_pose(mount: Callable) -> None:
+    """The function is refitted: at its new place the marker gives its own pose."""
+    page = mount(pad(mode="markers"))
+    start = pixel(page, MARKERS[1])
+    drag(page, start, (start[0] + 30, start[1] - 70))
+    page.evaluate(f"{PAD}.look({edit(page)['to']})")
+    assert shown_angle(page) == pytest.approx(30.0, abs=1e-6)
+
+
+def test_escape_puts_a_marker_back(mount: Callable) -> None:
+    """Everything is as it was, and nothing is told."""
+    page = mount(pad(mode="markers"))
+    start = pixel(page, MARKERS[1])
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(start[0] + 50, start[1] - 50, steps=3)
+    page.locator(PLOT).focus()
+    page.keyboard.press("Escape")
+    page.mouse.up()
+    assert array(page, "markers").tolist() == MARKERS.ravel().tolist()
+    assert edit(page) == {}
+
+
+def test_a_double_click_adds_the_nearest_frame(mount: Callable) -> None:
+    """Near the clip's curve it is a frame, at the frame's place."""
+    page = mount(pad(mode="markers"))
+    x, y = pixel(page, [30.0, 5.0])
+    page.mouse.dblclick(x, y - 4)
+    told = edit(page)
+    assert (told["kind"], told["frame"]) == ("add", 30)
+    assert told["at"] == pytest.approx([30.0, 5.0])
+    assert len(told["rotations"]) == 27
+    assert len(told["root"]) == 3
+
+
+def test_a_double_click_elsewhere_adds_the_pose_shown_there(mount: Callable) -> None:
+    """Far from the curve it is no frame, and its pose is what was seen."""
+    page = mount(pad(mode="markers"))
+    # Double clicks come in whole pixels, moves do not.
+    x, y = pixel(page, [5.0, 8.0])
+    spot = (round(x), round(y))
+    page.mouse.move(*spot)
+    seen = page.evaluate(f"[...{PAD}.scene.poseAt({PAD}.place).rotations]")
+    page.mouse.dblclick(*spot)
+    told = edit(page)
+    assert (told["kind"], told["frame"]) == ("add", None)
+    assert told["at"] == pytest.approx(place_at(page, spot), abs=0.2)
+    np.testing.assert_allclose(told["rotations"], seen, atol=1e-9)
+
+
+def test_delete_removes_the_selected_marker(mount: Callable) -> None:
+    """By key and by button, until three are left."""
+    page = mount(pad(mode="markers"))
+    page.mouse.click(*pixel(page, MARKERS[1]))
+    page.locator(PLOT).focus()
+    page.keyboard.press("Delete")
+    assert {k: edit(page)[k] for k in ("kind", "marker")} == {"kind": "remove", "marker": 1}
+    assert page.evaluate(f"{PAD}.scene.count") == 3
+    page.evaluate("mounted[0].model.set('selected', 0)")
+    assert page.get_by_role("button", name="Delete the selected marker").is_disabled()
+
+
+# Deforming and drawing.
+
+
+def test_a_dragged_curve_is_that_of_python(mount: Callable) -> None:
+    """The edit has what Python needs to get the very points that are shown, to 1e-9."""
+    page = mount(pad(mode="deform", radius=12.5))
+    start = pixel(page, [15.0, 5.0])
+    drag(page, start, (start[0] + 20, start[1] - 90))
+    told = edit(page)
+    assert (told["kind"], told["index"], told["radius"]) == ("deform", 15, 12.5)
+    path = Trajectory(np.asarray(pad().points).reshape(-1, 2), np.asarray(pad().times))
+    expected = path.dragged(told["index"], told["to"], told["radius"]).points
+    np.testing.assert_allclose(array(page, "points").reshape(-1, 2), expected, rtol=0, atol=1e-9)
+    assert page.evaluate(f"{PAD}.scene.follows") is False
+    assert array(page, "markers").tolist() == MARKERS.ravel().tolist()
+
+
+def test_the_wheel_and_the_slider_set_the_radius(mount: Callable) -> None:
+    """The wheel makes it larger or smaller, the slider shows it, and the edit has it."""
+    page = mount(pad(mode="deform", radius=12.5))
+    page.locator(PLOT).focus()
+    page.mouse.move(*pixel(page, [15.0, 5.0]))
+    page.mouse.wheel(0, -300)
+    page.wait_for_function(f"{PAD}.radius > 13")
+    wide = page.evaluate(f"{PAD}.radius")
+    slider = page.get_by_label("Radius of the deformation")
+    slider.fill("10")
+    assert page.evaluate(f"{PAD}.radius") < 12.5 < wide
+    assert page.locator(".wb-pad-amount").inner_text() != ""
+
+
+def test_drawing_records_its_timing(mount: Callable) -> None:
+    """Points and growing seconds are told at the end, and shown in place of the trajectory."""
+    page = mount(pad(mode="draw"))
+    corners = [pixel(page, place) for place in ([0, 0], [10, 8], [30, 8], [40, 2])]
+    page.mouse.move(*corners[0])
+    page.mouse.down()
+    for corner in corners[1:]:
+        page.mouse.move(*corner, steps=5)
+        page.evaluate("new Promise((done) => setTimeout(done, 80))")
+    assert edit(page) == {}
+    page.mouse.up()
+    told = edit(page)
+    times = np.array(told["times"])
+    assert told["kind"] == "draw"
+    assert times[0] == 0
+    assert np.all(np.diff(times) > 0)
+    assert times[-1] > 0.2
+    assert told["points"][0] == pytest.approx([0, 0], abs=0.3)
+    assert told["points"][-1] == pytest.approx([40, 2], abs=0.3)
+    np.testing.assert_array_equal(array(page, "points").reshape(-1, 2), told["points"])
+    assert page.evaluate(f"{PAD}.scene.follows") is False
+
+
+def test_escape_cancels_drawing(mount: Callable) -> None:
+    """The trajectory stays, and nothing is told."""
+    page = mount(pad(mode="draw"))
+    before = array(page, "points")
+    page.mouse.move(*pixel(page, [0, 0]))
+    page.mouse.down()
+    page.mouse.move(*pixel(page, [30, 8]), steps=5)
+    page.locator(PLOT).focus()
+    page.keyboard.press("Escape")
+    page.mouse.up()
+    assert edit(page) == {}
+    np.testing.assert_array_equal(array(page, "points"), before)
+
+
+def test_a_dot_is_no_trajectory(mount: Callable) -> None:
+    """A click in drawing mode changes nothing and says why."""
+    page = mount(pad(mode="draw"))
+    page.mouse.click(*pixel(page, [3, 3]))
+    assert edit(page) == {}
+    assert "Too short" in page.locator(".wb-pad-message").inner_text()
+
+
+# Turning joints.
+
+
+def test_a_turned_joint_shows_live_and_is_told_at_the_end(mount: Callable) -> None:
+    """The marker's pose turns about the joint's own axes; one edit on release."""
+    page = mount(pad(mode="markers", selected=1))
+    page.get_by_label("Joint", exact=True).select_option("1")
+    slider = page.get_by_label("Turn about z, degrees")
+    slider.evaluate(
+        "(node) => { node.value = '25'; node.dispatchEvent(new Event('input', {bubbles: true})); }"
+    )
+    assert shown_angle(page) == pytest.approx(55.0, abs=1e-6)
+    assert edit(page) == {}
+    slider.evaluate("(node) => node.dispatchEvent(new Event('change', {bubbles: true}))")
+    told = edit(page)
+    told.pop("number")
+    assert told == {"kind": "turn", "marker": 1, "joint": 1, "angles": [0, 0, 25], "place": None}
+
+
+@pytest.mark.parametrize(("choice", "place"), [("here", [7.0, 3.0]), ("best", "best")])
+def test_a_turned_pose_can_be_a_new_marker(mount: Callable, choice: str, place: Any) -> None:
+    """It goes where was looked at or where the optimizer wants; the old marker stays."""
+    page = mount(pad(mode="markers", selected=1))
+    page.evaluate(f"{PAD}.look([7, 3])")
+    page.get_by_label("Joint", exact=True).select_option("2")
+    page.get_by_label("What turning changes").select_option(choice)
+    field = page.get_by_label("Degrees about x")
+    field.fill("-40")
+    field.press("Tab")
+    told = edit(page)
+    assert (told["kind"], told["joint"], told["angles"]) == ("turn", 2, [-40, 0, 0])
+    assert told["place"] == place
+    before = np.asarray(pad().marker_poses)
+    np.testing.assert_array_equal(array(page, "poses"), before.ravel())
+
+
+def test_a_click_picks_the_nearest_joint(mount: Callable) -> None:
+    """The joint under the mouse is chosen in the list."""
+    page = mount(pad(selected=0))
+    box = page.locator(".wb-pad-stage").bounding_box()
+    x, y = page.evaluate(f"{PAD}.pose.jointPixel(2)")
+    page.mouse.click(box["x"] + x + 3, box["y"] + y - 3)
+    assert page.get_by_label("Joint", exact=True).input_value() == "2"
+
+
+# Time.
+
+
+def play_for(page: Any, seconds: float) -> None:
+    """Let time pass on the pad's own clock, in pictures of 20 ms."""
+    page.evaluate(
+        f"""(seconds) => {{
+          const pad = {PAD};
+          pad.play(true);
+          for (let ms = 0; ms <= Math.round(seconds * 1000) && pad.playing; ms += 20) {{
+            cancelAnimationFrame(pad.request);
+            pad.tick(1e6 + ms);
+          }}
+          cancelAnimationFrame(pad.request);
+        }}""",
+        seconds,
+    )
+
+
+@pytest.mark.parametrize(("speed", "expected"), [(0.25, 0.25), (1.0, 1.0), (2.0, 2.0)], ids=str)
+def test_the_clock_keeps_time(mount: Callable, speed: float, expected: float) -> None:
+    """After one second, at each speed, the trajectory is where it is then."""
+    page = mount(pad(speed=speed))
+    play_for(page, 1.0)
+    assert page.evaluate(f"{PAD}.time") == pytest.approx(expected, abs=0.05)
+    assert page.evaluate("mounted[0].model.saved") == 0
+
+
+def test_a_loop_starts_again(mount: Callable) -> None:
+    """With it time goes round, without it the end stays and Python knows."""
+    page = mount(pad())
+    play_for(page, 4.5)
+    assert page.evaluate(f"{PAD}.time") == pytest.approx(0.5, abs=0.05)
+    page.evaluate(f"{PAD}.pause(); mounted[0].model.set('loop', false)")
+    play_for(page, 9.0)
+    assert page.evaluate(f"[{PAD}.playing, mounted[0].model.get('time')]") == [False, 4.0]
+
+
+def test_feet_of_python_move_the_root(mount: Callable) -> None:
+    """At a time the root is where Python wants it; at a place it is the markers'."""
+    roots = np.zeros((41, 3))
+    roots[20] = [7.0, 8.0, 9.0]
+    page = mount(pad(roots=roots))
+    page.evaluate(f"{PAD}.seek(2.0)")
+    assert page.evaluate(f"[...{PAD}.pose.shown].slice(0, 3)") == [7, 8, 9]
+    page.evaluate(f"{PAD}.look([20, 10])")
+    root = page.evaluate(f"[...{PAD}.pose.shown].slice(0, 3)")
+    assert root == pytest.approx([20, 10, 10])
+
+
+def test_a_dragged_handle_changes_the_timing(mount: Callable) -> None:
+    """Its point comes at another time, times grow, the ends stay."""
+    page = mount(pad())
+    box = page.locator(".wb-pad-curve").bounding_box()
+    at = f"{PAD}.clock.curve"
+    x, y = page.evaluate(f"{at}.pixel(2.0, {at}.along[20])")
+    later = page.evaluate(f"{at}.pixel(2.8, 0)")[0]
+    page.locator(".wb-pad-curve").scroll_into_view_if_needed()
+    box = page.locator(".wb-pad-curve").bounding_box()
+    drag(page, (box["x"] + x, box["y"] + y), (box["x"] + later, box["y"] + y))
+    told = edit(page)
+    times = np.array(told["times"])
+    assert told["kind"] == "retime"
+    assert times[20] == pytest.approx(2.8, abs=0.05)
+    assert times[[0, 40]].tolist() == [0.0, 4.0]
+    assert np.all(np.diff(times) > 0)
+    assert array(page, "times").tolist() == times.tolist()
+
+
+# Python's answers.
+
+
+def test_no_other_state_is_shown_before_the_answer(mount: Callable) -> None:
+    """What comes before Python has taken the edit in would jump back; the answer is shown."""
+    page = mount(pad(mode="markers"))
+    start = pixel(page, MARKERS[1])
+    drag(page, start, (start[0] + 30, start[1] - 70))
+    there = edit(page)["to"]
+    page.evaluate("mounted[0].model.set('embedding', mounted[0].model.get('embedding'))")
+    assert array(page, "markers")[2:4].tolist() == there
+    moved = MARKERS.copy()
+    moved[1] = [3.0, 4.0]
+    answer(page, markers=moved)
+    assert array(page, "markers")[2:4].tolist() == [3.0, 4.0]
+
+
+def test_a_state_that_comes_during_a_gesture_waits(mount: Callable) -> None:
+    """The held marker stays in the hand; what came is shown when it is put back."""
+    page = mount(pad(mode="markers"))
+    start = pixel(page, MARKERS[1])
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(start[0] + 30, start[1] - 40, steps=3)
+    held = array(page, "markers")[2:4].tolist()
+    moved = MARKERS.copy()
+    moved[3] = [44.0, 4.0]
+    answer(page, markers=moved)
+    assert array(page, "markers")[2:4].tolist() == held
+    assert array(page, "markers")[6:].tolist() == MARKERS[3].tolist()
+    page.locator(PLOT).focus()
+    page.keyboard.press("Escape")
+    page.mouse.up()
+    assert array(page, "markers").tolist() == moved.ravel().tolist()
+
+
+def test_markers_at_one_place_are_told_and_give_a_pose(mount: Callable) -> None:
+    """Their mean pose is shown, a sentence says so, and nothing is not a number."""
+    markers = MARKERS.copy()
+    markers[2] = markers[1]
+    page = mount(pad(markers=markers, influence=[]))
+    page.evaluate(f"{PAD}.look([10, 0])")
+    assert shown_angle(page) == pytest.approx(45.0, abs=1e-6)
+    text = page.locator(".wb-pad-message").inner_text()
+    assert text.startswith("B and C are at the same place")
+
+
+def test_undo_and_redo_are_told(mount: Callable) -> None:
+    """By button and by key, each only where there is something."""
+    page = mount(pad(undo_label="deform", redo_label=""))
+    assert page.get_by_role("button", name="Nothing to redo").is_disabled()
+    page.get_by_role("button", name="Undo: deform").click()
+    assert edit(page)["kind"] == "undo"
+    page.locator(PLOT).focus()
+    answer(page, undo_label="", redo_label="deform")
+    page.keyboard.press("Control+z")
+    assert edit(page)["number"] == 1
+    page.keyboard.press("Control+Shift+z")
+    assert edit(page) == {"number": 2, "kind": "redo"}
+
+
+# Keyboard.
+
+
+def test_modes_have_keys(mount: Callable) -> None:
+    """Each letter chooses its mode, and the buttons show it."""
+    page = mount(pad())
+    page.locator(PLOT).focus()
+    for key, mode in {"m": "Markers", "d": "Deform", "p": "Draw", "s": "Scrub"}.items():
+        page.keyboard.press(key)
+        pressed = page.locator(".wb-pad-tools button[aria-pressed='true']").all_inner_texts()
+        assert pressed == [mode]
+
+
+def test_a_marker_is_moved_by_keys(mount: Callable) -> None:
+    """Arrows lead to it, Enter picks it up and drops it; eight pixels for each arrow."""
+    page = mount(pad(mode="markers"))
+    page.locator(PLOT).focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    before = pixel(page, MARKERS[1])
+    for key in ["Enter", "ArrowRight", "ArrowRight", "Shift+ArrowDown", "Enter"]:
+        page.keyboard.press(key)
+    told = edit(page)
+    assert (told["kind"], told["marker"]) == ("move", 1)
+    assert told["to"] == pytest.approx(place_at(page, (before[0] + 16, before[1] + 1)))
+
+
+def test_the_trajectory_is_deformed_by_keys(mount: Callable) -> None:
+    """Arrows lead along it, Enter picks it up and drops it, brackets set the radius."""
+    page = mount(pad(mode="deform", radius=12.0))
+    page.locator(PLOT).focus()
+    for key in [*["ArrowRight"] * 6, "]", "Enter", "ArrowUp", "Enter"]:
+        page.keyboard.press(key)
+    told = edit(page)
+    assert (told["kind"], told["index"]) == ("deform", 5)
+    assert told["radius"] == pytest.approx(12.0 * 1.15)
+
+
+def test_a_trajectory_is_drawn_by_keys(mount: Callable) -> None:
+    """Enter starts and ends; the arrows' times are recorded."""
+    page = mount(pad(mode="draw"))
+    page.locator(PLOT).focus()
+    page.keyboard.press("Enter")
+    for _ in range(4):
+        page.keyboard.press("ArrowRight")
+        page.evaluate("new Promise((done) => setTimeout(done, 70))")
+    page.keyboard.press("Enter")
+    told = edit(page)
+    assert told["kind"] == "draw"
+    assert len(told["points"]) >= 5
+    assert told["points"][-1][0] > told["points"][0][0]
+
+
+def test_timing_is_changed_by_keys(mount: Callable) -> None:
+    """Arrows lead from handle to handle, Enter picks one up; arrows move it by frames."""
+    page = mount(pad())
+    page.locator(".wb-pad-curve").focus()
+    for key in ["ArrowRight", "Enter", "ArrowRight", "ArrowRight", "Enter"]:
+        page.keyboard.press(key)
+    told = edit(page)
+    assert told["kind"] == "retime"
+    assert told["times"][KEYS[1]] == pytest.approx(1.2)
+
+
+def test_nothing_of_the_keyboard_reaches_the_notebook(mount: Callable) -> None:
+    """Keys that the pad uses stop there: JupyterLab would delete cells."""
+    page = mount(pad(mode="markers"))
+    page.evaluate("document.addEventListener('keydown', (e) => (window.heard ??= []).push(e.key))")
+    page.locator(PLOT).focus()
+    for key in ["d", "m", "a", "Enter", "Escape", "ArrowDown", " ", "Delete"]:
+        page.keyboard.press(key)
+    page.get_by_label("Speed").focus()
+    page.keyboard.press("ArrowDown")
+    assert page.evaluate("window.heard ?? []") in ([], ["Escape"])
+
+
+# Without Python.
+
+
+def test_an_exported_page_scrubs_and_plays_without_editing(visit: Any, tmp_path: Path) -> None:
+    """From a file, the pose follows the mouse and time passes; there is nothing to edit with."""
+    path = export_html(pad(undo_label="deform", mode="markers"), tmp_path / "pad.html", title="Pad")
+    page = visit.page
+    page.goto(path.as_uri())
+    page.locator(PLOT).wait_for()
+    page.mouse.move(*pixel(page, MARKERS[3]))
+    assert shown_angle(page) == pytest.approx(90.0, abs=3.0)
+    play_for(page, 1.0)
+    assert page.evaluate(f"{PAD}.time") == pytest.approx(1.0, abs=0.05)
+    for name in ("Undo: deform", "Markers", "Add marker"):
+        assert page.get_by_role("button", name=name).count() == 0
+    page.locator(PLOT).focus()
+    page.keyboard.press("m")
+    assert page.evaluate(f"{PAD}.mode") == "scrub"
