@@ -16,6 +16,7 @@ import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
+from pathlib import PurePath
 from typing import Any
 
 import numpy as np
@@ -53,8 +54,8 @@ class Method:
 
     name: str
     selector: str
-    # No part of equality, because a dict has no hash.
-    settings: Mapping[str, Any] = field(default_factory=dict, compare=False)
+    # A dict has no hash.
+    settings: Mapping[str, Any] = field(default_factory=dict, hash=False)
 
     @classmethod
     def of(cls, method: str | Method) -> Method:
@@ -97,7 +98,9 @@ class Clip:
             frames = min(frames, round(seconds / motion.frame_time))
         if frames < 3:
             raise WorkbenchError(f"{clip}: got {frames} frames to show, want at least 3")
-        return cls(clip, motion[:frames], name=clip)
+        # A file is called by its name without folders.
+        path = PurePath(clip)
+        return cls(clip, motion[:frames], name=path.stem if path.is_absolute() else clip)
 
     @property
     def parameters(self) -> dict[str, Any]:

@@ -1,0 +1,267 @@
+"""The participant's page: what it asks, what it stores, and what it must not tell."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterator
+from pathlib import Path
+
+import ipywidgets
+import numpy as np
+import pytest
+
+from workbench.dashboards.study_participation import StudyParticipation, take_part_in_study
+from workbench.datasets import load
+from workbench.errors import WorkbenchError
+from workbench.study.database import read_study
+from workbench.study.design import StudyDesign, load_design, store_design
+from workbench.study.participation import participants
+from workbench.study.stimuli import Clip, make_stimuli, practice_stimuli, stimulus_motion
+from workbench.widgets.player import motion_traits
+
+CLIPS = ("cmu/01_01-jump", "cmu/01_03-walk")
+
+
+@pytest.fixture(scope="module")
+def design() -> StudyDesign:
+    parts = [Clip.from_start(name, load(name), seconds=0.5) for name in CLIPS]
+    stimuli = [s for part in parts for s in make_stimuli(part, ["uniform", "pb"], count=3)]
+    turn = Clip.from_start("cmu/01_01-turn", load("cmu/01_01-turn"), seconds=0.5)
+    return StudyDesign(tuple(stimuli), practice_stimuli(turn), seed=11)
+
+
+@pytest.fixture
+def study(design: StudyDesign, tmp_path: Path) -> Path:
+    path = tmp_path / "study.sqlite"
+    store_design(path, design)
+    return path
+
+
+@pytest.fixture
+def page(study: Path) -> Iterator[StudyParticipation]:
+    page = take_part_in_study(study)
+    yield page
+    page.close()
+
+
+def watch(page: StudyParticipation) -> None:
+    page.player.ends += 1
+
+
+def give(page: StudyParticipation, *ratings: int) -> None:
+    """Rate what is on the screen from left to right, as the browser does."""
+    for place, rating in enumerate(ratings):
+        given = page.form.choice[0] + 1 if page.form.choice else 1
+        page.form.choice = [given, place, rating]
+
+
+def finish(page: StudyParticipation) -> None:
+    page.form.finished += 1
+
+
+def practise(page: StudyParticipation) -> None:
+    page.begin.click()
+    watch(page)
+    give(page, 9, 2)
+    finish(page)
+
+
+def test_a_participant_rates_everything(page: StudyParticipation, study: Path) -> None:
+    """Each rating goes with the stimulus at its place in this participant's order."""
+    practise(page)
+    for expected in ([8, 3, 10], [1, 2, 3]):
+        watch(page)
+        give(page, *expected)
+        assert page.form.stored == expected
+        finish(page)
+    assert "Thank you" in page.root.children[-1].children[0].value
+    answers = read_study(study).sort_values("position")
+    shown = [s.key for item in load_design(study).shown_to(1) for s in item]
+    stored = answers[["test_case", "motion", "stimulus"]].itertuples(index=False)
+    assert [tuple(row) for row in stored] == shown
+    assert answers["rating"].tolist() == [8, 3, 10, 1, 2, 3]
+    assert answers["position"].tolist() == [1, 2, 3, 4, 5, 6]
+
+
+def test_the_exercise_is_not_stored(page: StudyParticipation, study: Path) -> None:
+    """It looks like an item, and leaves nothing in the file."""
+    page.begin.click()
+    assert page.form.letters == ["A", "B"]
+    watch(page)
+    give(page, 9, 2)
+    assert page.form.stored == [9, 2]
+    finish(page)
+    assert page.index == 0
+    assert participants(study) == {1: 0}
+
+
+def test_nothing_can_be_rated_before_it_was_seen_once(
+    page: StudyParticipation, study: Path
+) -> None:
+    """A rating that comes earlier, however, is refused in words and stored nowhere."""
+    practise(page)
+    assert not page.form.ready
+    give(page, 5)
+    assert "Watch the figures to the end" in page.form.message
+    assert page.form.stored == [0, 0, 0]
+    watch(page)
+    assert page.form.ready
+    give(page, 5)
+    assert page.form.message == ""
+    assert len(read_study(study)) == 1
+
+
+def test_a_rating_may_be_changed_while_its_item_is_shown(
+    page: StudyParticipation, study: Path
+) -> None:
+    """The last one is stored; an item with a missing rating is not left."""
+    practise(page)
+    watch(page)
+    give(page, 5, 6)
+    give(page, 7)
+    assert page.form.stored == [7, 6, 0]
+    finish(page)
+    assert page.index == 0
+    assert page.form.message == "Please rate all figures first."
+
+
+def test_a_failure_names_no_method(page: StudyParticipation, study: Path) -> None:
+    """What is told does not unblind the study; whoever leads it finds the details."""
+    practise(page)
+    watch(page)
+    with sqlite3.connect(study) as database:
+        database.execute("UPDATE stimuli SET stimulus = stimulus || ' edited'")
+    database.close()
+    give(page, 5)
+    assert page.form.message.startswith("That did not work")
+    assert "has no stimulus methods / cmu" in page.failure
+
+
+def test_another_kernel_goes_on_where_the_page_was(page: StudyParticipation, study: Path) -> None:
+    """By what the tab remembers, or by the code; half an item is shown with its ratings."""
+    practise(page)
+    watch(page)
+    give(page, 5, 6, 7)
+    finish(page)
+    watch(page)
+    give(page, 2)
+    for way in ("recalled", "typed"):
+        other = take_part_in_study(study)
+        assert other.memory.name == page.memory.name
+        if way == "recalled":
+            other.memory.recalled = page.memory.word
+        else:
+            other.code.value = page.memory.word.lower()
+            other.go_on.click()
+        assert other.index == 1
+        assert other.form.stored == [2, 0, 0]
+        assert other.form.ready  # it was seen before
+        np.testing.assert_array_equal(other.player.positions, page.player.positions)
+        other.close()
+
+
+def test_a_wrong_code_is_told_and_stores_nothing(page: StudyParticipation, study: Path) -> None:
+    """The page stays as it was."""
+    page.code.value = "3-XYZ"
+    page.go_on.click()
+    assert "want the number and the three letters" in page.message
+    assert page.run is None
+    assert participants(study) == {}
+
+
+def test_the_next_participant_starts_at_the_beginning(
+    page: StudyParticipation, study: Path
+) -> None:
+    """On one screen, one after the other, each with a number of their own."""
+    practise(page)
+    for _ in range(2):
+        watch(page)
+        give(page, 5, 5, 5)
+        finish(page)
+    page.next_person.click()
+    assert page.memory.word == ""
+    page.begin.click()
+    assert page.run is not None
+    assert page.run.participant == 2
+    assert page.index == -1
+
+
+def test_motions_stand_in_the_order_of_the_letters(page: StudyParticipation) -> None:
+    """What is rated as A is the left motion, and so on."""
+    practise(page)
+    assert page.run is not None
+    motions = {s.name: stimulus_motion(s) for s in page.run.items[0]}
+    expected = motion_traits(motions)["positions"]
+    np.testing.assert_array_equal(np.asarray(page.player.positions).ravel(), expected.ravel())
+    assert page.player.motions == page.form.letters == ["A", "B", "C"]
+
+
+def test_no_state_of_any_widget_tells_a_method(page: StudyParticipation, study: Path) -> None:
+    """Neither a name nor a clip nor keyframes nor the path of the study reach the browser."""
+    practise(page)
+    told = []
+    for widget in _below(page.root):
+        state = widget.get_state()
+        told.append(json.dumps({k: v for k, v in state.items() if k[0] != "_"}, default=repr))
+    words = " ".join(told).lower()
+    assert len(told) > 8
+    for secret in ("original", "uniform", "'pb'", '"pb"', "cmu", "methods", "saliency", str(study)):
+        assert secret.lower() not in words
+    assert not len(page.player.keyframes)
+
+
+def _below(widget: ipywidgets.Widget) -> Iterator[ipywidgets.Widget]:
+    yield widget
+    yield widget.layout
+    for child in getattr(widget, "children", ()):
+        yield from _below(child)
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [("", "No study was prepared yet"), ("none", "there is no such file")],
+    ids=["none at all", "a missing one"],
+)
+def test_a_missing_study_is_told(
+    name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The page says so and offers nothing that cannot work."""
+    monkeypatch.setenv("WORKBENCH_STUDIES", str(tmp_path))
+    page = take_part_in_study(name)
+    assert words in page.message
+    page.close()
+
+
+def test_the_page_finds_the_study_of_its_address(
+    design: StudyDesign, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A name in the address comes first, else the study that was prepared last."""
+    monkeypatch.setenv("WORKBENCH_STUDIES", str(tmp_path))
+    for title in ("first", "second"):
+        store_design(tmp_path / f"{title}.sqlite", StudyDesign(design.stimuli, seed=1, title=title))
+    monkeypatch.setenv("QUERY_STRING", "study=first&token=x")
+    page = take_part_in_study()
+    assert "first" in page.root.children[-1].children[0].value
+    page.close()
+
+
+def test_a_study_that_is_gone_loses_nothing_on_the_page(
+    page: StudyParticipation, study: Path
+) -> None:
+    """A rating that cannot be stored is told, and not shown as stored."""
+    practise(page)
+    watch(page)
+    give(page, 4)
+    content = study.read_bytes()
+    study.unlink()
+    give(page, 9)
+    assert page.form.message.startswith("That did not work")
+    assert "there is no such file" in page.failure
+    assert page.form.stored == [4, 0, 0]
+    study.write_bytes(content)
+    give(page, 9)
+    assert page.form.message == ""
+    assert page.form.stored == [9, 0, 0]
+    with pytest.raises(WorkbenchError, match="place: got 3"):
+        page.run.rate(0, 3, 5)

@@ -1,0 +1,134 @@
+"""A study is prepared from what is chosen, and what cannot be shown is told."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from workbench.dashboards import StudyPreparation, prepare_study
+from workbench.datasets import load
+from workbench.errors import WorkbenchError
+from workbench.selection.saliency import Saliency
+from workbench.spaces import PoseSpace
+from workbench.study.database import study_stimuli
+from workbench.study.design import load_design
+from workbench.study.stimuli import Method
+
+CLIPS = ("cmu/01_01-jump", "cmu/01_03-walk")
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[StudyPreparation]:
+    preparation = prepare_study(
+        CLIPS, ["uniform", "scs"], count=4, seconds=0.5, file="/nowhere/study"
+    )
+    yield preparation
+    preparation.close()
+
+
+@pytest.fixture
+def preparation(shared: StudyPreparation) -> StudyPreparation:
+    """Give the dashboard as it was first, whatever the test before did to it."""
+    shared.controls.choose(CLIPS)
+    shared.controls.methods.value = ["uniform", "scs"]
+    shared.controls.set_count(4, None)
+    return shared
+
+
+def test_what_is_chosen_becomes_a_study(preparation: StudyPreparation, tmp_path: Path) -> None:
+    """Each clip with its original and each method, an exercise, and what participants read."""
+    path = preparation.save(tmp_path / "new folder" / "mine")
+    assert path.name == "mine.sqlite"
+    design = load_design(path)
+    assert [s.key for s in design.stimuli] == [
+        ("methods", clip, name) for clip in CLIPS for name in ("original", "uniform", "scs")
+    ]
+    assert {s.parameters["count"] for s in design.stimuli if s.name != "original"} == {4}
+    assert design.practice[0].parameters["clip"] == "cmu/01_01-turn"
+    assert design == preparation.design
+
+
+def test_saliency_decides_the_count_of_all_methods(preparation: StudyPreparation) -> None:
+    """By its own rule on the part that is shown, clip by clip."""
+    preparation.controls.set_count(None, None)
+    for item in preparation.design.items:
+        motion = load(item[0].motion)[: item[0].parameters["frames"]]
+        expected = len(Saliency().select(PoseSpace(motion)))
+        assert {s.parameters["count"] for s in item[1:]} == {expected}
+
+
+def test_a_method_with_settings_has_a_name_of_its_own() -> None:
+    """So the suggested parameters can be compared with others, as in the second test case."""
+    loose = Method("loose", "saliency", {"sigma": 15.0, "n_components": 5})
+    preparation = prepare_study(CLIPS[:1], ["saliency", loose], count=3, seconds=0.5, exercise=None)
+    stimuli = preparation.design.stimuli
+    assert [s.name for s in stimuli] == ["original", "saliency", "loose"]
+    assert stimuli[2].parameters["settings"] == {"sigma": 15.0, "n_components": 5}
+    assert preparation.design.practice == ()
+    preparation.close()
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("/no/such.bvh", "no/such"),
+        ("uci/iris", "got a table, want a motion"),
+    ],
+    ids=["a missing file", "a table"],
+)
+def test_a_clip_that_cannot_be_shown_is_told(
+    preparation: StudyPreparation, name: str, words: str, tmp_path: Path
+) -> None:
+    """The others stay, nothing is stored, and without it the study is complete again."""
+    preparation.controls.choose([*CLIPS, name])
+    assert words in preparation.message
+    assert words in preparation.view.message.value
+    assert preparation.controls.save.disabled
+    assert CLIPS[1] in preparation.view.table.value
+    with pytest.raises(WorkbenchError, match=r"iris|no/such"):
+        preparation.save(tmp_path / "study")
+    assert not list(tmp_path.iterdir())
+    preparation.controls.choose(CLIPS)
+    assert preparation.message == ""
+    assert not preparation.controls.save.disabled
+
+
+@pytest.mark.parametrize("part", ["clips", "methods"])
+def test_what_is_still_to_be_chosen_is_told(preparation: StudyPreparation, part: str) -> None:
+    """Without a clip or a method there is no study."""
+    getattr(preparation.controls, part).value = []
+    assert f"Choose at least one {part[:-1]}." in preparation.view.message.value
+    assert preparation.controls.save.disabled
+
+
+def test_a_study_that_is_there_is_kept(preparation: StudyPreparation, tmp_path: Path) -> None:
+    """The button says so in words; the file with its answers stays as it is."""
+    path = preparation.save(tmp_path / "study")
+    before = path.read_bytes()
+    preparation.controls.file.value = str(path)
+    preparation.controls.seed.value += 1
+    preparation.controls.save.click()
+    assert "is there already, want the name of a new file" in preparation.view.saved.value
+    assert path.read_bytes() == before
+    preparation.controls.file.value = str(tmp_path / "another")
+    preparation.controls.save.click()
+    assert "another.sqlite" in preparation.view.saved.value
+    assert len(study_stimuli(tmp_path / "another.sqlite")) == 6
+
+
+def test_the_preview_shows_what_was_made(preparation: StudyPreparation) -> None:
+    """With the methods' names, clip by clip, and anew when the keyframes change."""
+    preparation.view.shown.value = CLIPS[0]
+    assert preparation.view.player.motions == ["original", "uniform", "scs"]
+    before = bytes(preparation.view.player.get_state()["positions"])
+    preparation.controls.set_count(3, None)
+    assert preparation.view.shown.value == CLIPS[0]
+    assert bytes(preparation.view.player.get_state()["positions"]) != before
+
+
+def test_an_unknown_method_is_refused() -> None:
+    """In Python, where whoever wrote it sees the message."""
+    with pytest.raises(WorkbenchError, match="selector: got 'none'"):
+        prepare_study(CLIPS, ["none"])

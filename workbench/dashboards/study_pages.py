@@ -1,0 +1,44 @@
+"""What a participant reads before and after the motions. No method is named here."""
+
+from __future__ import annotations
+
+from html import escape
+
+from workbench.study.answers import HIGHEST_RATING, LOWEST_RATING
+from workbench.study.design import StudyDesign
+
+_PAGE = (
+    '<div class="wb-study-text" style="max-width: 44em; font-size: 15px; line-height: 1.5">{}</div>'
+)
+
+
+def welcome_text(design: StudyDesign) -> str:
+    """Tell what will happen, how long it takes and what is stored."""
+    n_items = len(design.items)
+    minutes = max(1, round(design.minutes))
+    return _page(
+        design.title,
+        f"You will see {n_items} {'movement' if n_items == 1 else 'movements'}, each of them as "
+        "several stick figures side by side that move in step. They show the same movement, but "
+        "may not show it equally well.",
+        f"Watch them to the end at least once, as often as you like. Then give each figure a "
+        f"rating from {LOWEST_RATING} (lowest quality) to {HIGHEST_RATING} (highest). Two figures "
+        "may get the same rating. There is no right answer: what you see counts.",
+        f"It takes about {minutes} {'minute' if minutes == 1 else 'minutes'}. First there is an "
+        "exercise that does not count. You can stop whenever you want.",
+        "Only your ratings are stored, on this machine, under a number. Nobody asks for your name.",
+    )
+
+
+def thanks_text(code: str) -> str:
+    """Say that everything is done."""
+    return _page(
+        "Thank you",
+        f"All your ratings are stored. You took part as {code}; you may close this page.",
+    )
+
+
+def _page(title: str, *paragraphs: str) -> str:
+    heading = f'<h2 style="margin: 0 0 8px; line-height: 1.25">{escape(title)}</h2>'
+    words = "".join(f'<p style="margin: 0 0 8px">{escape(words)}</p>' for words in paragraphs)
+    return _PAGE.format(heading + words)

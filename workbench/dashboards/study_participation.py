@@ -1,0 +1,294 @@
+"""The participant's page of a user study, from which neither methods nor results can be told."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from string import ascii_uppercase
+from typing import Any
+
+import ipywidgets as widgets
+
+from workbench.dashboards.home import Home
+from workbench.dashboards.layout import FITTING, alert, control_row
+from workbench.dashboards.study_files import known_studies, study_of_address, study_path
+from workbench.dashboards.study_pages import thanks_text, welcome_text
+from workbench.errors import DataError, WorkbenchError
+from workbench.study.answers import Stimulus
+from workbench.study.design import load_design
+from workbench.study.run import StudyRun
+from workbench.study.stimuli import stimulus_motion
+from workbench.widgets.player import MotionPlayer, motion_traits
+from workbench.widgets.rating_form import RatingForm
+from workbench.widgets.tab_memory import TabMemory
+
+_WATCH_FIRST = "Watch the figures to the end once. Then you can rate them."
+_RATE_ALL = "Please rate all figures first."
+_FAILED = "That did not work. Nothing that was stored is lost. Please call whoever leads the study."
+
+
+class _Asked(Exception):  # noqa: N818 - no error: a person can do it
+    """Say in words for participants what is to be done first."""
+
+
+def take_part_in_study(study: str | Path = "") -> StudyParticipation:
+    """Show the page on which participants rate motions.
+
+    Parameters
+    ----------
+    study : str or path-like
+        Name or path of a study that was prepared. By default the one that the page's address
+        asks for (``take_part.ipynb?study=NAME``), or the one that was prepared last.
+
+    Returns
+    -------
+    StudyParticipation
+        Shown by a notebook as the last expression of a cell.
+    """
+    return StudyParticipation(study)
+
+
+class StudyParticipation:
+    """A page that leads a participant through a study.
+
+    Each rating is on the disk before the page says that it is stored. A page that was reloaded,
+    or whose kernel ended, goes on with the item that was on the screen.
+
+    Parameters
+    ----------
+    study
+        As for :func:`take_part_in_study`.
+
+    Attributes
+    ----------
+    run : StudyRun or None
+        Who takes part; None before it is known.
+    index : int or None
+        The item on the screen, from 0; None for another page, −1 for the exercise.
+    form : RatingForm
+        Where ratings are given.
+    player : MotionPlayer
+        Where the motions of the item play.
+    memory : TabMemory
+        What the tab remembers.
+    failure : str
+        What failed last, with the details that participants are not told.
+    """
+
+    def __init__(self, study: str | Path = "") -> None:
+        self.run: StudyRun | None = None
+        self.index: int | None = None
+        self.failure = ""
+        self.form = RatingForm()
+        self.player = MotionPlayer()
+        self.memory = TabMemory()
+        self._path: Path | None = None
+        self._practised: list[int] = []
+        self._here = Home().here
+        self._message = widgets.HTML()
+        self._body = widgets.VBox([])
+        self.begin = _button("Begin", "Take part as a new participant")
+        self.code = widgets.Text(
+            description="Your code",
+            placeholder="such as 12-KFM",
+            style=FITTING,
+            layout=widgets.Layout(width="240px"),
+        )
+        self.go_on = _button("Go on", "Go on where you were")
+        self.next_person = _button("Next participant", "Begin again with somebody else")
+        self.root = widgets.VBox([self.memory, self._message, self._body])
+        self.root.add_class("wb-study")
+        self._connect()
+        self._open(study)
+
+    def _repr_mimebundle_(self, **kwargs: Any) -> Any:
+        return self.root._repr_mimebundle_(**kwargs)
+
+    @property
+    def message(self) -> str:
+        """What went wrong; empty if nothing did."""
+        return str(self.form.message or self._message.value)
+
+    def close(self) -> None:
+        """Take the page away."""
+        self.player.close()
+        self.form.close()
+        self.root.close()
+
+    # Pages.
+
+    def _open(self, study: str | Path) -> None:
+        known = known_studies()
+        name = str(study) or study_of_address() or (known[0] if known else "")
+        if not name:
+            self._tell("No study was prepared yet. Prepare one first, then open this page again.")
+            return
+        try:
+            self._path = study_path(name)
+            load_design(self._path)
+        except WorkbenchError as error:
+            self._tell(str(error))
+            return
+        self._welcome()
+        # A tab remembers participants of this file only, and shows its path to nobody.
+        self.memory.name = hashlib.sha256(str(self._path).encode()).hexdigest()[:16]
+
+    def _welcome(self) -> None:
+        assert self._path is not None  # a study is open
+        self.run, self.index = None, None
+        text = widgets.HTML(welcome_text(load_design(self._path)))
+        again = widgets.HTML("<span>Were you here before?</span>")
+        self._body.children = [
+            text,
+            control_row([self.begin]),
+            control_row([again, self.code, self.go_on]),
+        ]
+
+    def _thanks(self) -> None:
+        assert self.run is not None  # somebody has finished
+        self.index = None
+        self._body.children = [widgets.HTML(thanks_text(self.run.code)), self.next_person]
+
+    def _enter(self, run: StudyRun) -> None:
+        self.run = run
+        self.memory.word = run.code
+        self._tell("")
+        if run.design.practice and not run.has_begun:
+            self._practised = [0] * len(run.design.practice)
+            self._show(-1, run.design.practice, self._practised)
+            return
+        self._continue()
+
+    def _continue(self) -> None:
+        assert self.run is not None  # only participants get here
+        index = self.run.current
+        if index is None:
+            self._thanks()
+        else:
+            self._show(index, self.run.items[index], self.run.ratings(index))
+
+    def _show(self, index: int, stimuli: Sequence[Stimulus], ratings: list[int]) -> None:
+        assert self.run is not None  # only participants get here
+        letters = list(ascii_uppercase[: len(stimuli)])
+        motions = {letter: stimulus_motion(s) for letter, s in zip(letters, stimuli, strict=True)}
+        n_items = len(self.run.items)
+        name = "Exercise" if index < 0 else f"Movement {index + 1} of {n_items}"
+        onward = "Start" if index < 0 else "Finish" if index + 1 == n_items else "Next movement"
+        before, self.index = self.player, index
+        # Another player, so that nothing of the item before stays: neither turn nor ends.
+        self.player = MotionPlayer(
+            **motion_traits(motions), description=f"{name}, motions side by side", autoplay=True
+        )
+        self.player.layout = widgets.Layout(width="100%", min_width="0")
+        self.player.observe(self._here(self._on_end), "ends")
+        with self.form.hold_sync():
+            self.form.heading = f"{name}. You take part as {self.run.code}."
+            self.form.question = self.run.design.question + (
+                " This one is an exercise: nothing of it is stored." if index < 0 else ""
+            )
+            self.form.letters, self.form.stored = letters, ratings
+            self.form.onward, self.form.waiting = onward, _WATCH_FIRST
+            # Who has rated something has seen it.
+            self.form.ready = any(ratings)
+            self.form.message = ""
+        self._body.children = [self.player, self.form]
+        before.close()
+
+    def _tell(self, words: str) -> None:
+        self._message.value = alert(words) if words else ""
+
+    # What a person does.
+
+    def _connect(self) -> None:
+        here = self._here
+        self.begin.on_click(here(lambda _: self._try(self._on_begin)))
+        self.go_on.on_click(here(lambda _: self._try(self._on_go_on)))
+        self.next_person.on_click(here(lambda _: self._try(self._on_next_person)))
+        self.memory.observe(here(lambda _: self._try(self._on_recalled)), "recalled")
+        self.form.observe(here(self._on_choice), "choice")
+        self.form.observe(here(lambda _: self._try(self._on_finished)), "finished")
+
+    def _on_begin(self) -> None:
+        assert self._path is not None  # the button is on no other page
+        self._enter(StudyRun.begin(self._path))
+
+    def _on_go_on(self) -> None:
+        assert self._path is not None  # the button is on no other page
+        try:
+            run = StudyRun.resume(self._path, self.code.value)
+        except DataError:
+            raise
+        except WorkbenchError as error:
+            raise _Asked(str(error)) from None
+        self._enter(run)
+
+    def _on_recalled(self) -> None:
+        if not self.memory.recalled or self.run is not None or self._path is None:
+            return
+        try:
+            run = StudyRun.resume(self._path, self.memory.recalled)
+        except WorkbenchError:
+            return  # of a study that was in the same place before
+        self._enter(run)
+
+    def _on_next_person(self) -> None:
+        self.memory.word = ""
+        self.memory.recalled = ""
+        self.code.value = ""
+        self._welcome()
+
+    def _on_end(self, change: Any) -> None:
+        if change["new"] > 0:
+            self.form.ready = True
+
+    def _on_choice(self, change: Any) -> None:
+        if self.index is None or len(change["new"]) != 3:
+            return
+        _, place, rating = change["new"]
+        self._try(lambda: self._store(place, rating))
+
+    def _store(self, place: int, rating: int) -> None:
+        assert self.run is not None  # the form is shown to participants only
+        assert self.index is not None
+        if not self.form.ready:
+            raise _Asked(_WATCH_FIRST)
+        if self.index >= 0:
+            self.run.rate(self.index, place, rating)
+            self.form.stored = self.run.ratings(self.index)
+        else:
+            self._practised = [*self._practised[:place], rating, *self._practised[place + 1 :]]
+            self.form.stored = self._practised
+
+    def _on_finished(self) -> None:
+        if self.run is None or self.index is None:
+            return
+        if not all(self.form.stored):
+            raise _Asked(_RATE_ALL)
+        if self.index >= 0:
+            self.run.settle(self.index)
+        self._continue()
+
+    def _try(self, act: Callable[[], None]) -> None:
+        """Do what a person asks for; what fails is told, and nothing is lost by it."""
+        shown = self.index is not None
+        self.form.message = ""
+        try:
+            act()
+        except _Asked as request:
+            words = str(request)
+        except Exception as error:  # whatever it is, the person must know that it failed
+            # Its words may name the stimulus, which a participant must not learn.
+            self.failure, words = f"{type(error).__name__}: {error}", _FAILED
+        else:
+            return
+        if shown:
+            self.form.message = words
+        else:
+            self._tell(words)
+
+
+def _button(text: str, tooltip: str) -> widgets.Button:
+    return widgets.Button(
+        description=text, tooltip=tooltip, layout=widgets.Layout(width="auto", min_width="110px")
+    )

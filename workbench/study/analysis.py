@@ -1,0 +1,98 @@
+"""The answers of a study, motion by motion, as the tables of Halit 2010, chapter 5, have them."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from workbench.errors import DegenerateDataWarning, WorkbenchError
+from workbench.study.answers import motions_of, ratings_of
+from workbench.study.comparisons import PairedComparison, compare_stimuli
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+
+@dataclass(frozen=True, eq=False)
+class MotionAnalysis:
+    """What participants say of one motion.
+
+    Attributes
+    ----------
+    title : str
+        Test case and motion.
+    ratings : DataFrame of shape (n_participants, n_stimuli)
+        As from :func:`workbench.study.answers.ratings_of`.
+    comparisons : tuple of PairedComparison
+        Each pair of stimuli, corrected for their number; empty if they cannot be compared.
+    missing : str
+        Why not; empty if they can.
+    """
+
+    title: str
+    ratings: pd.DataFrame
+    comparisons: tuple[PairedComparison, ...]
+    missing: str = ""
+
+
+def analyse_answers(answers: pd.DataFrame) -> list[MotionAnalysis]:
+    """Compare the stimuli of each motion by paired t tests.
+
+    Where a test case has several motions, the mean over its motions follows: the tests are then
+    made on one number for each participant and stimulus, over the motions that the participant
+    rated completely.
+
+    Parameters
+    ----------
+    answers : DataFrame
+        As from :func:`workbench.study.answers.check_answers`.
+
+    Returns
+    -------
+    list of MotionAnalysis
+        In order of appearance, means behind the motions of their test case.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> from workbench.study.answers import check_answers
+    >>> rows = [(1, "a", 7), (1, "b", 5), (2, "a", 9), (2, "b", 8)]
+    >>> columns = ["participant", "stimulus", "rating"]
+    >>> frame = pd.DataFrame(rows, columns=columns).assign(test_case="methods", motion="walk")
+    >>> [found] = analyse_answers(check_answers(frame))
+    >>> found.comparisons[0].mean_difference
+    1.5
+    """
+    found: list[MotionAnalysis] = []
+    motions = motions_of(answers)
+    for case in dict.fromkeys(case for case, _ in motions):
+        names = [motion for other, motion in motions if other == case]
+        tables = [ratings_of(answers, case, name) for name in names]
+        found += [
+            _analysis(f"{case}: {name}", table) for name, table in zip(names, tables, strict=True)
+        ]
+        if len(names) > 1:
+            found.append(_analysis(f"{case}: mean over {len(names)} motions", _mean(tables)))
+    return found
+
+
+def _analysis(title: str, ratings: pd.DataFrame) -> MotionAnalysis:
+    try:
+        with warnings.catch_warnings():
+            # The notes of the comparisons say it.
+            warnings.simplefilter("ignore", DegenerateDataWarning)
+            return MotionAnalysis(title, ratings, tuple(compare_stimuli(ratings)))
+    except WorkbenchError as error:
+        return MotionAnalysis(title, ratings, (), f"too few answers to compare: {error}")
+
+
+def _mean(tables: Sequence[pd.DataFrame]) -> pd.DataFrame:
+    """Average each participant's ratings over the motions rated completely by them."""
+    import pandas as pd  # takes most of a second, and the command line needs none of it
+
+    whole = pd.concat([table.dropna() for table in tables], sort=False)
+    order = list(dict.fromkeys(index for table in tables for index in table.index))
+    means = whole.groupby(level=0).mean()
+    return means.reindex([index for index in order if index in means.index])
