@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from workbench.authoring import edits
 from workbench.authoring.animation import animate, poses_at
+from workbench.authoring.grounding import find_support, foot_speeds, keep_feet
 from workbench.authoring.history import History
 from workbench.authoring.placing import (
     Refinement,
@@ -24,27 +25,44 @@ from workbench.authoring.placing import (
     refined,
     spatial_keyframes,
 )
-from workbench.authoring.rendering import play
+from workbench.authoring.rendering import FootSlide, foot_slide, play
 from workbench.authoring.scene import Marker, Scene
+from workbench.authoring.session_file import (
+    Session,
+    read_session,
+    save_session,
+    session_bytes,
+    session_from_bytes,
+)
 from workbench.authoring.starts import scene_from_clip, scene_on_circle
 from workbench.authoring.trajectories import Trajectory
 
 __all__ = [
+    "FootSlide",
     "History",
     "Marker",
     "Refinement",
     "Scene",
+    "Session",
     "Trajectory",
     "animate",
     "best_place",
     "edits",
+    "find_support",
+    "foot_slide",
+    "foot_speeds",
     "influence",
+    "keep_feet",
     "placed",
     "play",
     "poses_at",
+    "read_session",
     "reconstruction_error",
     "refined",
+    "save_session",
     "scene_from_clip",
     "scene_on_circle",
+    "session_bytes",
+    "session_from_bytes",
     "spatial_keyframes",
 ]

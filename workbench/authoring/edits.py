@@ -87,13 +87,11 @@ def add_frame(
     frame = whole_number("frame", frame, 0)
     if frame >= scene.n_frames:
         raise WorkbenchError(f"frame: got {frame}, want one from 0 to {scene.n_frames - 1}")
+    if frame in scene.frames:
+        raise WorkbenchError(f"frame: got {frame}, which has a marker already")
     place = _free_place(scene, scene.embedding[frame] if at is None else at)
     markers = (*scene.markers, Marker.of_frame(space, frame, place, name))
-    if at is None:
-        return scene.laid_out(markers, scene.embedding)
-    # Said before the frames are placed, which would fail for a frame that comes twice.
-    scene.laid_out(markers, scene.embedding)
-    return placed(scene, space, markers)
+    return scene.laid_out(markers, scene.embedding) if at is None else placed(scene, space, markers)
 
 
 def add_pose(
@@ -430,6 +428,6 @@ def _free_place(scene: Scene, place: ArrayLike, besides: int = -1) -> NDArray[np
 
 
 def _new_name(scene: Scene) -> str:
-    """Number a new pose by a number that no marker has."""
+    """Find a name for a new pose that no marker has."""
     names: Sequence[str] = [marker.name for marker in scene.markers]
     return next(name for k in range(1, len(names) + 2) if (name := f"pose {k}") not in names)

@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
 
 from workbench.authoring.animation import animate
+from workbench.authoring.grounding import (
+    Support,
+    find_support,
+    foot_speeds,
+    ground_level,
+    keep_feet,
+)
 from workbench.authoring.placing import check_clip, spatial_keyframes
 from workbench.authoring.scene import Scene
 from workbench.mocap.motion import Motion
@@ -35,5 +45,55 @@ def play(scene: Scene, space: PoseSpace) -> Motion:
         If the clip is another one.
     """
     check_clip(scene, space)
+    motion = _as_rebuilt(scene, space)
+    return keep_feet(motion, _support(motion, space)) if scene.keep_feet else motion
+
+
+@dataclass(frozen=True, eq=False)
+class FootSlide:
+    """How fast the supporting foot slides, without and with keeping it in place.
+
+    Attributes
+    ----------
+    before, after : ndarray of shape (n_frames,)
+        Horizontal speed in each frame, in file units per second; 0 where no foot stands.
+    """
+
+    before: NDArray[np.float64]
+    after: NDArray[np.float64]
+
+
+def foot_slide(scene: Scene, space: PoseSpace) -> FootSlide:
+    """Compare how feet slide before and after the root is recomputed.
+
+    Parameters
+    ----------
+    scene : Scene
+        The scene, whether it keeps the feet or not.
+    space : PoseSpace
+        Its clip.
+
+    Returns
+    -------
+    FootSlide
+
+    Raises
+    ------
+    WorkbenchError
+        If the clip is another one, or no feet are found in it.
+    """
+    motion = _as_rebuilt(scene, space)
+    support = _support(motion, space)
+    return FootSlide(foot_speeds(motion, support), foot_speeds(keep_feet(motion, support), support))
+
+
+def _as_rebuilt(scene: Scene, space: PoseSpace) -> Motion:
+    """Play a scene with the root as it is interpolated between the markers."""
+    check_clip(scene, space)
     motion = animate(scene.trajectory, spatial_keyframes(scene), space.motion)
     return replace(motion, name=f"{scene.clip} (authored)")
+
+
+def _support(motion: Motion, space: PoseSpace) -> Support:
+    """Find the supporting feet above the ground of the clip, of which the motion is made."""
+    return find_support(motion, ground_level(space.motion))
