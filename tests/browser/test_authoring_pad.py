@@ -22,10 +22,18 @@ from tests.browser.authoring_page import (
     pixel,
     place_at,
 )
+from tests.browser.chromium import Visit
 from workbench.authoring.trajectories import Trajectory
 from workbench.widgets.export import export_html
 
 pytestmark = pytest.mark.browser
+
+
+@pytest.fixture(autouse=True)
+def calm(visit: Visit) -> None:
+    """Let nothing glide: what Python sends is shown at once."""
+    visit.page.emulate_media(reduced_motion="reduce")
+
 
 _STAGE = "document.querySelector('.wb-pad-stage').toDataURL()"
 

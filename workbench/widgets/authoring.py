@@ -121,13 +121,17 @@ class AuthoringPad(anywidget.AnyWidget):
         "authoring_fit",
         "authoring_curve",
         "authoring_scene",
+        "authoring_view",
         "authoring_plane",
         "authoring_hands",
         "authoring_drags",
         "authoring_pose",
+        "authoring_time_curve",
         "authoring_time",
         "authoring_tools",
         "authoring_input",
+        "authoring_clock",
+        "authoring_glide",
         "authoring",
     )
     _css = style_sheet()

@@ -2,22 +2,22 @@
 // clock, and tells Python of an edit when its gesture has ended.
 
 const FEWEST_MARKERS = 3;
-const LEAP = 0.25; // seconds that may pass between two pictures before time waits
 const ANSWER_WITHIN = 15_000; // milliseconds
 const SCENE_TRAITS = [
   "parents", "sides", "head", "offsets", "joint_names", "frame_time", "kernel", "epsilon", "markers", "marker_poses", "marker_roots",
   "marker_frames", "marker_names", "influence", "embedding", "points", "times", "follows", "ghost", "roots", "answered",
 ];
 
-class AuthoringPad {
+class AuthoringPad extends PadClock {
   constructor(model, root, signal) {
-    Object.assign(this, { model, root, signal, scene: null, place: [0, 0], atTime: true, time: 0, hovered: -1 });
-    Object.assign(this, { playing: false, holding: false, waiting: false, pending: 0, request: 0, radius: 0 });
+    super(model);
+    Object.assign(this, { root, signal, hovered: -1, selected: -1, holding: false, waiting: false, pending: 0, radius: 0 });
     const hintId = `wb-hint-${Math.random().toString(36).slice(2)}`;
     this.tools = new PadTools(this, signal);
     this.plane = new PadPlane(hintId);
     this.pose = new PadPose(this, signal);
     this.clock = new PadTime(this, signal);
+    this.glide = new PadGlide(this);
     this.hands = { scrub: new ScrubHand(this), markers: new MarkerHand(this), deform: new DeformHand(this), draw: new DrawHand(this) };
     this.readout = element("span", { class: "wb-detail" });
     this.message = element("div", { class: "wb-pad-message", role: "status" });
@@ -31,7 +31,8 @@ class AuthoringPad {
     this.arrive();
     onTraits(model, SCENE_TRAITS, () => this.arrive(), signal);
     onTraits(model, ["selected"], () => this.takeSelected(), signal);
-    onTraits(model, ["mode", "undo_label", "redo_label", "editable", "message", "radius", "loop", "speed", "show_ghost"], () => this.showControls(), signal);
+    onTraits(model, ["mode", "undo_label", "redo_label", "editable", "message", "loop", "speed", "show_ghost"], () => this.showControls(), signal);
+    onTraits(model, ["radius"], () => model.get("radius") > 0 && this.setRadius(model.get("radius")), signal);
     onTraits(model, ["time"], () => model.get("time") !== this.time && this.seek(model.get("time")), signal);
     onHover(model, (frame) => !this.announcing && frame >= 0 && this.scene && this.seek(this.timeOf(frame)), signal);
     watchTheme(() => this.redraw(), signal);
@@ -40,6 +41,7 @@ class AuthoringPad {
     signal.addEventListener("abort", () => {
       observer.disconnect();
       cancelAnimationFrame(this.request);
+      cancelAnimationFrame(this.glide.request);
       clearTimeout(this.patience);
     });
   }
@@ -58,11 +60,13 @@ class AuthoringPad {
     const scene = new AuthoredScene(this.model);
     // Traits of another clip may come one after the other; what does not fit is not drawn.
     if (!scene.fits) return this.showControls();
-    const first = !this.scene;
+    this.glide.stop();
+    const before = this.scene;
+    const first = !before;
     const newBody = first || ["parents", "ghost", "sides", "head"].some((name) => this.model.get(name) !== this.seen[name]);
     this.seen = Object.fromEntries(["parents", "ghost", "sides", "head"].map((name) => [name, this.model.get(name)]));
     this.scene = scene;
-    this.radius ||= this.model.get("radius") || this.radiusAt(0.45);
+    if (newBody) this.radius = this.model.get("radius") || radiusAt(scene, 0.45);
     if (this.atTime) this.time = first ? this.model.get("time") : this.time;
     this.time = Math.max(scene.start, Math.min(scene.start + scene.duration, this.time));
     if (this.atTime) this.place = scene.placeAt(this.time);
@@ -71,6 +75,7 @@ class AuthoringPad {
     this.plane.resize();
     if (!this.plane.view || newBody || !this.plane.holds(scene)) this.plane.fit(scene);
     this.clock.read(scene);
+    if (!newBody) this.glide.start(before, scene);
     this.showControls();
   }
 
@@ -78,6 +83,7 @@ class AuthoringPad {
     const number = Math.max(this.pending, this.model.get("answered"), this.model.get("edit").number ?? 0) + 1;
     this.pending = number;
     this.save("edit", { number, kind, ...details });
+    this.remark = "";
     clearTimeout(this.patience);
     this.patience = setTimeout(() => this.say("Python has not answered yet: it is busy or has stopped. What you see is kept until it does.", true), ANSWER_WITHIN);
   }
@@ -95,6 +101,7 @@ class AuthoringPad {
 
   /** Keep what Python sends until the hand lets go. */
   hold() {
+    this.glide.stop();
     this.holding = true;
   }
 
@@ -136,6 +143,7 @@ class AuthoringPad {
   }
 
   addMarker(place) {
+    this.glide.stop();
     const { scene, plane } = this;
     if (!scene || this.holding) return;
     const frame = plane.nearestOn(scene.embedding, plane.toPixel(place));
@@ -153,6 +161,7 @@ class AuthoringPad {
   }
 
   removeMarker() {
+    this.glide.stop();
     const { scene, selected } = this;
     if (!scene || selected < 0 || this.holding) return;
     if (scene.count <= FEWEST_MARKERS) return this.say(`At least ${FEWEST_MARKERS} markers must stay.`, true);
@@ -163,25 +172,9 @@ class AuthoringPad {
     this.tell("remove", { marker: selected });
   }
 
-  /** A radius between the shortest and the longest that make sense, and back. */
-  radiusAt(part) {
-    const [low, high] = this.radii;
-    return low * (high / low) ** part;
-  }
-
-  partOf(radius) {
-    const [low, high] = this.radii;
-    return Math.log(radius / low) / Math.log(high / low);
-  }
-
-  get radii() {
-    const long = this.scene ? lengthsAlong(this.scene.points).at(-1) : 1;
-    return [0.005 * (long || 1), long || 1];
-  }
-
   setRadius(radius) {
-    const [low, high] = this.radii;
-    this.radius = Math.max(low, Math.min(high, radius));
+    if (!this.scene) return;
+    this.radius = radiusAt(this.scene, Math.max(0, Math.min(1, partOfRadius(this.scene, radius))));
     this.tools.show();
     this.drawTop();
   }
@@ -200,69 +193,7 @@ class AuthoringPad {
     this.drawTop();
   }
 
-  // Time.
-
-  timeOf(frame) {
-    return this.scene.start + frame * this.scene.frameTime;
-  }
-
-  play(on) {
-    on = on && this.scene !== null;
-    if (on === this.playing) return;
-    this.playing = on;
-    this.clock.showControls();
-    cancelAnimationFrame(this.request);
-    if (!on) return this.save("time", this.time);
-    if (this.time >= this.scene.start + this.scene.duration - 1e-9) this.time = this.scene.start;
-    this.last = null;
-    this.request = requestAnimationFrame((now) => this.tick(now));
-  }
-
-  pause() {
-    this.play(false);
-  }
-
-  /** Advance the clock by the time that has passed, and show where it is. */
-  tick(now) {
-    if (!this.playing) return;
-    const passed = this.last === null ? 0 : Math.min(LEAP, (now - this.last) / 1000);
-    this.last = now;
-    const { start, duration } = this.scene;
-    let time = this.time + passed * this.model.get("speed");
-    if (time > start + duration && !this.model.get("loop")) {
-      this.seek(start + duration);
-      return this.pause();
-    }
-    if (time > start + duration) time = start + ((time - start) % duration);
-    this.seek(time);
-    this.request = requestAnimationFrame((later) => this.tick(later));
-  }
-
-  /** Show a time; with `tell`, it stays and Python hears of it. */
-  seek(time, tell = false) {
-    if (!this.scene) return;
-    const { start, duration } = this.scene;
-    this.time = Math.max(start, Math.min(start + duration, time));
-    this.atTime = true;
-    this.place = this.scene.placeAt(this.time);
-    this.drawMoving();
-    this.clock.draw();
-    if (tell) this.save("time", this.time);
-    const frame = this.scene.frameAt(this.time);
-    if (!this.model.get("channel") || frame === this.announced) return;
-    this.announcing = true;
-    announceHover(this.model.get("channel"), (this.announced = frame));
-    this.announcing = false;
-  }
-
-  scrub(time, done) {
-    this.pause();
-    this.seek(time, done);
-  }
-
-  step(frames) {
-    this.scrub(this.timeOf(this.scene.frameAt(this.time) + frames), true);
-  }
+  // What is looked at.
 
   /** Show the pose at a place of the plane; while playing, the clock's goes before. */
   look(place) {
@@ -291,7 +222,6 @@ class AuthoringPad {
   showControls() {
     const { model } = this;
     const { hand } = this;
-    if (model.get("radius") > 0 && !this.holding) this.radius = model.get("radius");
     this.hint.textContent = `${hand.hint} ${PAD_HINT}`;
     this.plane.plot.dataset.mode = this.mode;
     this.clock.showControls();
@@ -332,6 +262,12 @@ class AuthoringPad {
     const [x, y] = this.place;
     const marker = this.hovered >= 0 ? `${this.scene.nameOf(this.hovered)} · ` : "";
     this.readout.textContent = `${marker}${this.atTime ? `time ${(this.time - this.scene.start).toFixed(2)} s` : "place"} · ${brief(x)}, ${brief(y)}`;
+  }
+
+  /** Show what the time is, here and on the bar. */
+  showMoment() {
+    this.drawMoving();
+    this.clock.draw();
   }
 
   drawTop() {

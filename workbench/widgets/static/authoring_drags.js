@@ -1,6 +1,7 @@
 // Dragging markers and the trajectory itself, by mouse or keys.
 
 const PAD_REACH = 18; // how far from the curve, in pixels, it can be taken hold of
+const SHORTEST_RADIUS = 0.005; // of the trajectory's length
 const SETTLING = 250; // milliseconds until frames are where markers put them
 
 class MarkerHand extends Hand {
@@ -85,6 +86,19 @@ class MarkerHand extends Hand {
   }
 }
 
+/** A radius between the shortest and the longest that make sense, and back to its part. */
+function radiusAt(scene, part) {
+  return longestRadius(scene) * SHORTEST_RADIUS ** (1 - part);
+}
+
+function partOfRadius(scene, radius) {
+  return 1 - Math.log(radius / longestRadius(scene)) / Math.log(SHORTEST_RADIUS);
+}
+
+function longestRadius(scene) {
+  return lengthsAlong(scene.points).at(-1) || 1;
+}
+
 class DeformHand extends Hand {
   hint =
     "Drag the trajectory; the wheel, [ and ] or the slider say how far along it the drag is felt. Arrow keys lead along it (Shift: point by point); Enter picks it up and drops it, Escape puts it back.";
@@ -147,6 +161,7 @@ class DeformHand extends Hand {
     if (to[0] === from[0] && to[1] === from[1]) return pad.letGo(true);
     pad.letGo();
     pad.say("trajectory deformed");
+    pad.model.set("radius", pad.radius); // goes with the edit
     pad.tell("deform", { index, to, radius: pad.radius });
   }
 

@@ -1,105 +1,25 @@
 // The pad's plane: the trajectory coloured by time, markers, and what follows the mouse, on two
 // canvases, so that a move of the mouse redraws little.
 
-const PAD_MARGIN = 34; // pixels around what is there, when all of it is shown
 const PAD_TALL = [260, 460];
 const MARKER_RADIUS = 6.5;
 const CHEVRON = 5;
 const TICKS = 7; // seconds that are written beside a trajectory, about
 
-class PadPlane {
+class PadPlane extends PlaneView {
   constructor(describedBy) {
+    super();
     const layer = (name) => element("canvas", { class: name, "aria-hidden": "true" });
     [this.base, this.top] = [layer("wb-base"), layer("wb-top")];
     this.plot = element("div", {
       class: "wb-plot wb-pad-plot", tabindex: "0", role: "application", "aria-describedby": describedBy,
     }, [this.base, this.top]);
-    Object.assign(this, { width: 0, height: 0, view: null });
   }
-
-  // Where things are.
 
   resize() {
     this.width = this.plot.clientWidth;
     this.height = this.plot.clientHeight;
   }
-
-  /** Show all of a scene. */
-  fit(scene) {
-    const { low, high } = boxOf(Float64Array.from([...scene.points, ...scene.embedding, ...scene.markers]));
-    this.view = { x: (low[0] + high[0]) / 2, y: (low[1] + high[1]) / 2, wide: high[0] - low[0], tall: high[1] - low[1], zoom: 1 };
-  }
-
-  /** Whether all of a scene is in sight. */
-  holds(scene) {
-    const inside = (points) => {
-      for (let i = 0; i < points.length; i += 2) {
-        const [x, y] = this.toPixel([points[i], points[i + 1]]);
-        if (!(x >= 0 && y >= 0 && x <= this.width && y <= this.height)) return false;
-      }
-      return true;
-    };
-    return inside(scene.points) && inside(scene.markers);
-  }
-
-  /** Pixels in a unit of the plane. */
-  get scale() {
-    const { wide, tall, zoom } = this.view;
-    const room = [this.width, this.height].map((size) => Math.max(20, size - 2 * PAD_MARGIN));
-    return zoom * Math.min(room[0] / (wide || tall || 1), room[1] / (tall || wide || 1));
-  }
-
-  toPixel([x, y]) {
-    const { scale, view } = this;
-    return [this.width / 2 + (x - view.x) * scale, this.height / 2 - (y - view.y) * scale];
-  }
-
-  toPlace([px, py]) {
-    const { scale, view } = this;
-    return [view.x + (px - this.width / 2) / scale, view.y - (py - this.height / 2) / scale];
-  }
-
-  /** Zoom so that the place under a pixel stays there. */
-  zoomAt(factor, pixel = [this.width / 2, this.height / 2]) {
-    const [x, y] = this.toPlace(pixel);
-    this.view.zoom = Math.min(40, Math.max(0.25, this.view.zoom * factor));
-    const [nx, ny] = this.toPlace(pixel);
-    this.view.x += x - nx;
-    this.view.y += y - ny;
-  }
-
-  pan(dx, dy) {
-    this.view.x -= dx / this.scale;
-    this.view.y += dy / this.scale;
-  }
-
-  /** Bring a place into sight, for those who move it by keys. */
-  reveal(place) {
-    const [x, y] = this.toPixel(place);
-    const [kx, ky] = [Math.max(12, Math.min(this.width - 12, x)), Math.max(12, Math.min(this.height - 12, y))];
-    if (kx === x && ky === y) return false;
-    this.pan(kx - x, ky - y);
-    return true;
-  }
-
-  nearestMarker(scene, [px, py], reach = 14) {
-    let [best, nearest] = [-1, reach];
-    for (let j = 0; j < scene.count; j++) {
-      const [x, y] = this.toPixel(scene.marker(j));
-      const distance = Math.hypot(x - px, y - py);
-      if (distance <= nearest) [best, nearest] = [j, distance];
-    }
-    return best;
-  }
-
-  /** The point of a curve within reach of a pixel, -1 if none is. */
-  nearestOn(points, pixel, reach = 14) {
-    if (!points.length) return -1;
-    const { index, distance } = nearestPoint(points, this.toPlace(pixel));
-    return distance * this.scale <= reach ? index : -1;
-  }
-
-  // Pictures.
 
   drawBase(scene, { selected, theme }) {
     const context = emptied(this.base, this.width, this.height);
@@ -148,7 +68,10 @@ class PadPlane {
     context.font = "11px system-ui, sans-serif";
     context.textAlign = "left";
     context.textBaseline = "middle";
-    const taken = [];
+    const taken = Array.from({ length: scene.count }, (_, j) => {
+      const [x, y] = this.toPixel(scene.marker(j));
+      return [x - 10, y - 10, x + 10, y + 10];
+    });
     for (let t = 0; t <= scene.duration * 1.000001; t += step) {
       const [x, y] = this.toPixel(scene.placeAt(scene.start + t));
       this.drawChevron(context, scene, t + step / 2, theme);
@@ -156,19 +79,23 @@ class PadPlane {
       context.arc(x, y, 2.6, 0, 2 * Math.PI);
       context.fillStyle = theme.text;
       context.fill();
-      if (taken.some(([tx, ty]) => Math.abs(tx - x) < 34 && Math.abs(ty - y) < 13)) continue;
-      taken.push([x, y]);
-      written(context, `${Number(t.toPrecision(6))} s`, x + 6, y - 8, theme);
+      const text = `${Number(t.toPrecision(6))} s`;
+      const wide = context.measureText(text).width;
+      const boxes = [[6, -9], [6, 9], [-6 - wide, -9], [-6 - wide, 9]].map(([dx, dy]) => [x + dx, y + dy - 7, x + dx + wide, y + dy + 7]);
+      const free = boxes.find((box) => !taken.some((other) => overlap(box, other)));
+      if (!free) continue;
+      taken.push(free);
+      written(context, text, free[0], free[1] + 7, theme);
     }
   }
 
   drawChevron(context, scene, t, theme) {
     if (t >= scene.duration) return;
-    const reach = scene.duration / 200;
+    const reach = scene.duration / 120;
     const [x0, y0] = this.toPixel(scene.placeAt(scene.start + t - reach));
     const [x, y] = this.toPixel(scene.placeAt(scene.start + t + reach));
     const way = Math.hypot(x - x0, y - y0);
-    if (way < 1) return; // it hardly moves there
+    if (way < 2 || this.nearestMarker(scene, [x, y]) >= 0) return; // it hardly moves there, or a marker hides it
     const [dx, dy] = [((x - x0) / way) * CHEVRON, ((y - y0) / way) * CHEVRON];
     context.beginPath();
     context.moveTo(x - dx - dy, y - dy + dx);
@@ -278,6 +205,11 @@ function written(context, text, x, y, theme) {
   context.strokeText(text, x, y);
   context.fillStyle = theme.text;
   context.fillText(text, x, y);
+}
+
+/** Whether two boxes, [left, top, right, bottom], have something in common. */
+function overlap(a, b) {
+  return a[0] < b[2] && b[0] < a[2] && a[1] < b[3] && b[1] < a[3];
 }
 
 /** A round step that cuts a span into about so many parts. */

@@ -6,8 +6,8 @@ const JOINT_REACH = 14; // pixels from a joint within which a click picks it
 const AXES = ["x", "y", "z"];
 const PLACES_OF_TURNED = [
   ["", "this marker"],
-  ["here", "a new marker at the place looked at"],
-  ["best", "a new marker where the optimizer puts it"],
+  ["here", "a new marker here"],
+  ["best", "a new marker at the best place"],
 ];
 
 class PadPose {
@@ -42,9 +42,10 @@ class PadPose {
       return { slider, field, node: element("label", { class: "wb-pad-turn" }, [element("span", { text: axis }), slider, field]) };
     });
     on(this.joints, "keydown", (event) => event.stopPropagation());
+    this.places.title = "A new marker goes to the place that was looked at, or to where the optimizer puts it";
     this.title = element("span", { class: "wb-title" });
     this.turning = element("div", { class: "wb-pad-turning", hidden: "" }, [
-      element("div", { class: "wb-bar" }, [this.title, this.joints, element("span", { text: "changes" }), this.places]),
+      element("div", { class: "wb-bar" }, [this.title, this.joints, element("span", { text: "of" }), this.places]),
       element("div", { class: "wb-pad-turns" }, this.turns.map(({ node }) => node)),
     ]);
   }
@@ -53,7 +54,7 @@ class PadPose {
     let from = null;
     this.canvas.addEventListener("pointerdown", ({ offsetX, offsetY }) => (from = [offsetX, offsetY]), { signal: this.signal });
     this.canvas.addEventListener("pointerup", ({ offsetX, offsetY }) => {
-      if (!from || Math.hypot(offsetX - from[0], offsetY - from[1]) >= PAD_CLICK || this.turning.hidden) return;
+      if (!from || Math.hypot(offsetX - from[0], offsetY - from[1]) >= PAD_CLICK || this.joints.disabled) return;
       let [best, nearest] = [-1, JOINT_REACH];
       for (let joint = 0; joint < this.pad.scene.body.joints; joint++) {
         const [x, y] = this.jointPixel(joint);
@@ -149,14 +150,18 @@ class PadPose {
 
   showSelected(editable) {
     const { pad } = this;
-    this.turning.hidden = !editable || pad.selected < 0;
-    if (!this.turning.hidden) this.title.textContent = `Turn a joint of ${pad.scene.nameOf(pad.selected)}:`;
-    for (const { slider, field } of this.turns) slider.disabled = field.disabled = this.joint < 0;
+    const none = pad.selected < 0;
+    this.turning.hidden = !editable;
+    this.turning.classList.toggle("wb-pad-idle", none);
+    this.title.textContent = none ? "Select a marker to turn" : `${pad.scene.nameOf(pad.selected)}: turn`;
+    this.joints.disabled = this.places.disabled = none;
+    for (const { slider, field } of this.turns) slider.disabled = field.disabled = none || this.joint < 0;
   }
 
   resize() {
     const width = this.canvas.clientWidth;
-    this.height = Math.round(Math.min(POSE_TALL[1], Math.max(POSE_TALL[0], 0.8 * width)));
+    const beside = this.node.offsetTop < this.pad.plane.plot.offsetTop + 10;
+    this.height = beside ? this.pad.plane.height : Math.round(Math.min(POSE_TALL[1], Math.max(POSE_TALL[0], 0.6 * width)));
     this.canvas.style.height = `${this.height}px`;
     this.width = width;
     this.colours = stickColours(this.pad.theme);
@@ -178,7 +183,7 @@ class PadPose {
     if (original) figures.unshift(this.beside(original, p));
     this.see = this.stage.camera(figures[0], width / 2, width, this.height);
     this.stage.play(context, figures, width, this.height, this.colours, true);
-    if (!this.turning.hidden && this.joint >= 0) this.drawRing(context);
+    if (!this.joints.disabled && this.joint >= 0) this.drawRing(context);
   }
 
   /** The original where the figure stands, because poses are compared and not ways. */

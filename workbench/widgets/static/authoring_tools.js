@@ -16,7 +16,7 @@ class PadTools {
       return button;
     });
     this.add = this.button("Add marker", "Add a marker at the place looked at (A)", () => pad.addMarker(pad.place));
-    this.remove = this.button("Delete", "Delete the selected marker (Delete)", () => pad.removeMarker());
+    this.remove = this.button("Delete marker", "Delete the selected marker (Delete)", () => pad.removeMarker());
     this.undo = this.button("Undo", "Undo", () => pad.tell("undo"));
     this.redo = this.button("Redo", "Redo", () => pad.tell("redo"));
     const group = (label, buttons) => element("span", { class: "wb-group", role: "group", "aria-label": label }, buttons);
@@ -32,7 +32,7 @@ class PadTools {
     ]);
     this.node = element("div", { class: "wb-bar wb-pad-tools" }, [...this.editing, view]);
     this.slider = element("input", { type: "range", min: "0", max: "100", step: "1", "aria-label": "Radius of the deformation" });
-    this.slider.addEventListener("input", () => pad.setRadius(pad.radiusAt(Number(this.slider.value) / 100)), { signal });
+    this.slider.addEventListener("input", () => pad.setRadius(radiusAt(pad.scene, Number(this.slider.value) / 100)), { signal });
     this.slider.addEventListener("change", () => pad.save("radius", pad.radius), { signal });
     this.amount = element("span", { class: "wb-pad-amount" });
     this.radius = element("label", { class: "wb-pad-radius", hidden: "" }, [element("span", { text: "felt up to" }), this.slider, this.amount]);
@@ -60,7 +60,7 @@ class PadTools {
     }
     this.radius.hidden = !editable || pad.mode !== "deform" || !scene;
     if (this.radius.hidden) return;
-    this.slider.value = String(Math.round(100 * pad.partOf(pad.radius)));
+    this.slider.value = String(Math.round(100 * partOfRadius(scene, pad.radius)));
     this.amount.textContent = `${brief(pad.radius)} along it`;
   }
 }
