@@ -12,7 +12,6 @@ import papermill
 import pytest
 
 from tests.check_notebooks import problems
-from workbench.reproduction.notebooks import this_interpreter
 from workbench.resources import bundled
 
 #: All lessons, in their order.
@@ -115,17 +114,16 @@ def test_no_cell_needs_what_an_exercise_defines(path):
     assert own & _names(others, ast.Load) == set()
 
 
-def _run(path: Path, folder: Path, *, solutions: bool) -> Any:
+def _run(path: Path, folder: Path, kernel: str, *, solutions: bool) -> Any:
     """Run a lesson from top to bottom, from another folder."""
-    with this_interpreter():
-        return papermill.execute_notebook(
-            path,
-            folder / "executed.ipynb",
-            parameters={"solutions": solutions},
-            kernel_name="python3",
-            progress_bar=False,
-            cwd=folder,
-        )
+    return papermill.execute_notebook(
+        path,
+        folder / "executed.ipynb",
+        parameters={"solutions": solutions},
+        kernel_name=kernel,
+        progress_bar=False,
+        cwd=folder,
+    )
 
 
 def _shown(cell: Any) -> str:
@@ -135,9 +133,9 @@ def _shown(cell: Any) -> str:
 
 
 @lessons
-def test_a_lesson_runs_with_solutions(path, tmp_path):
+def test_a_lesson_runs_with_solutions(path, tmp_path, kernel):
     """The lesson's own solutions solve every exercise, and their code is shown."""
-    notebook = _run(path, tmp_path, solutions=True)
+    notebook = _run(path, tmp_path, kernel, solutions=True)
     cells = _cells(notebook, "exercise")
     assert [_shown(cell).split(":")[0] for cell in cells] == [
         f"✓ Solved ({key})" for key in _exercises(path)
@@ -147,9 +145,9 @@ def test_a_lesson_runs_with_solutions(path, tmp_path):
 
 
 @lessons
-def test_a_lesson_runs_without_answers(path, tmp_path):
+def test_a_lesson_runs_without_answers(path, tmp_path, kernel):
     """Every exercise says what to do, no solution is shown, and all the rest runs."""
-    notebook = _run(path, tmp_path, solutions=False)
+    notebook = _run(path, tmp_path, kernel, solutions=False)
     cells = _cells(notebook, "exercise")
     assert [_shown(cell).split(":")[0] for cell in cells] == [
         f"… To do ({key})" for key in _exercises(path)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import nbformat
 import papermill
@@ -11,7 +13,6 @@ import pytest
 
 from tests.check_notebooks import problems
 from workbench.reproduction.items import EXTRAS, ITEMS, NOTEBOOKS
-from workbench.reproduction.notebooks import this_interpreter
 from workbench.reproduction.outputs import read_parts
 from workbench.resources import bundled
 
@@ -63,30 +64,32 @@ def test_notebooks_hold_no_algorithm(name):
             assert {alias.name.split(".")[0] for alias in node.names} <= ALLOWED
 
 
-def _run(name: str, folder: Path, **parameters) -> list[dict]:
+@pytest.fixture
+def run(tmp_path: Path, kernel: str) -> Callable[..., list[dict]]:
     """Run a notebook as a user does, from another folder; give what it left."""
-    with this_interpreter():
+
+    def run(name: str, **parameters: Any) -> list[dict]:
         papermill.execute_notebook(
             _path(name),
-            folder / "executed.ipynb",
+            tmp_path / "executed.ipynb",
             parameters={
-                "out": str(folder),
-                "results": str(folder / "results"),
+                "out": str(tmp_path),
+                "results": str(tmp_path / "results"),
                 "jobs": 1,
                 **parameters,
             },
-            kernel_name="python3",
+            kernel_name=kernel,
             progress_bar=False,
-            cwd=folder,
+            cwd=tmp_path,
         )
-    return read_parts(folder)
+        return read_parts(tmp_path)
+
+    return run
 
 
-def test_table_5_1_runs_on_one_clip(tmp_path: Path):
+def test_table_5_1_runs_on_one_clip(run):
     """With one clip and two schemes, the notebook makes its figure and both tables."""
-    parts = _run(
-        "costa2018_table_5_1", tmp_path, clips=["cmu/01_01-jump"], schemes=["Slerp", "PCA"], seed=3
-    )
+    parts = run("costa2018_table_5_1", clips=["cmu/01_01-jump"], schemes=["Slerp", "PCA"], seed=3)
     made = {(part["item"], part["kind"], part["name"]) for part in parts}
     assert made == {
         ("costa2018:fig5.3", "figure", "costa2018_fig5.3"),
@@ -96,16 +99,16 @@ def test_table_5_1_runs_on_one_clip(tmp_path: Path):
     assert all("1 CMU clip of 300 frames" in part["caption"] for part in parts[:2])
 
 
-def test_figure_5_13_runs_alone(tmp_path: Path):
+def test_figure_5_13_runs_alone(run):
     """Asked for one figure, the notebook makes that figure, its values and its table."""
-    parts = _run("costa2018_uci", tmp_path, items=["costa2018:fig5.13"])
+    parts = run("costa2018_uci", items=["costa2018:fig5.13"])
     assert {part["item"] for part in parts} == {"costa2018:fig5.13"}
     assert sorted(part["kind"] for part in parts) == ["figure", "table", "values"]
 
 
-def test_optimizers_run_on_one_clip(tmp_path: Path):
+def test_optimizers_run_on_one_clip(run):
     """With one clip and one projector, the notebook makes its figure and its three tables."""
-    parts = _run("optimizers", tmp_path, clips=["cmu/01_01-jump"], projectors=["PCA"])
+    parts = run("optimizers", clips=["cmu/01_01-jump"], projectors=["PCA"])
     made = {(part["item"], part["kind"], part["name"]) for part in parts}
     assert made == {
         ("extra:optimizers", "figure", "extra_optimizers"),

@@ -45,7 +45,7 @@ def control_points(
         points, values = validate_data(
             estimator, X, y, multi_output=True, y_numeric=True, dtype=np.float64
         )
-    return np.ascontiguousarray(points), np.asarray(values, dtype=np.float64)
+    return _plain(points), _plain(np.asarray(values, dtype=np.float64))
 
 
 def positions(estimator: Any, X: ArrayLike) -> NDArray[np.float64]:
@@ -87,7 +87,13 @@ def positions(estimator: Any, X: ArrayLike) -> NDArray[np.float64]:
         check_is_fitted(estimator)
         with said_in_one_line():
             points = validate_data(estimator, X, reset=False, dtype=np.float64)
-    return np.ascontiguousarray(points)
+    return _plain(points)
+
+
+def _plain(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Put values in rows that may be written: numba compiles another version for others."""
+    rows = np.ascontiguousarray(values)
+    return rows if rows.flags.writeable else rows.copy()
 
 
 def at_most(estimator: Any, name: str, limit: int) -> int:
