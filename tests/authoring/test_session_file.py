@@ -18,7 +18,8 @@ from workbench.authoring import (
     session_bytes,
     session_from_bytes,
 )
-from workbench.authoring.session_file import FORMAT, VERSION, clip_fingerprint
+from workbench.authoring.fingerprint import clip_fingerprint
+from workbench.authoring.session_file import FORMAT, VERSION
 from workbench.errors import DataError, WorkbenchError
 
 

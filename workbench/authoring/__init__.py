@@ -16,9 +16,9 @@ from workbench.authoring import edits
 from workbench.authoring.animation import animate, poses_at
 from workbench.authoring.grounding import find_support, foot_speeds, keep_feet
 from workbench.authoring.history import History
+from workbench.authoring.new_poses import best_place
 from workbench.authoring.placing import (
     Refinement,
-    best_place,
     influence,
     placed,
     reconstruction_error,

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from workbench.authoring.scene import Marker, Scene
 from workbench.backprojection.poses import SpatialKeyframes
@@ -21,12 +21,6 @@ from workbench.optimization import VISUALIZATION_OPTIMIZER, optimizers
 from workbench.optimization.objective import Callback, Objective
 from workbench.projection.rbfp import RBFP
 from workbench.spaces import PoseSpace
-
-#: How far a new pose stays away from markers, as a share of their extent: on a marker it
-#: would have no place of its own.
-_APART = 0.02
-#: Places around a marker that are tried for a pose that would end on it.
-_DIRECTIONS = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,12 +84,12 @@ def influence(space: PoseSpace, markers: Sequence[Marker]) -> NDArray[np.float64
         If a marker has a frame or joints that the clip has not.
     """
     for marker in markers:
-        _check_pose(space, marker)
+        check_pose(space, marker)
     new = [rank for rank, marker in enumerate(markers) if marker.frame is None]
     kept = [rank for rank, marker in enumerate(markers) if marker.frame is not None]
     kept.sort(key=lambda rank: markers[rank].frame or 0)
     frames = [markers[rank].frame for rank in kept]
-    extended = _with_poses(space, [markers[rank] for rank in new])
+    extended = with_poses(space, [markers[rank] for rank in new])
     indices = np.array([*frames, *range(len(space), len(extended))], dtype=np.intp)
     shares = RBFP().influence(extended, indices)[: len(space)]
     columns = np.empty(len(markers), dtype=np.intp)
@@ -203,68 +197,6 @@ def reconstruction_error(scene: Scene, space: PoseSpace) -> float:
     return float(errors.sum() / len(space))
 
 
-def best_place(
-    scene: Scene, space: PoseSpace, rotations: ArrayLike, seed: ArrayLike
-) -> NDArray[np.float64]:
-    """Find the place for a new pose: where the markers' poses blend to one most like it.
-
-    From the seed the optimizer goes down to a place of least error. Should that be a marker,
-    as it is for a pose that was made by a small turn of one, the best place around it is
-    taken.
-
-    Parameters
-    ----------
-    scene : Scene
-        The markers.
-    space : PoseSpace
-        Its clip.
-    rotations : array-like of shape (n_joints, 3, 3)
-        The pose.
-    seed : array-like of shape (2,)
-        Where to begin.
-
-    Returns
-    -------
-    ndarray of shape (2,)
-
-    Raises
-    ------
-    WorkbenchError
-        If the pose has other joints than the clip, or the seed is no place.
-
-    References
-    ----------
-    Costa 2018, chapter 6: a marker's place by Alg. 12 from a seed.
-    """
-    check_clip(scene, space)
-    pose = Marker(np.asarray(seed), np.asarray(rotations), np.zeros(3), None, "new pose")
-    _check_pose(space, pose)
-    markers = _with_poses(space, [*scene.markers, pose]).subset(
-        np.arange(len(space), len(space) + len(scene.markers) + 1)
-    )
-    last = len(scene.markers)
-    positions = scene.positions
-    objective = Objective.of(markers, spatial_keyframes(scene))
-    # The first step is as long as the mean distance to the two nearest markers.
-    away = np.linalg.norm(positions - pose.position, axis=1)
-    neighbors = np.tile(np.argsort(away, kind="stable")[:2], (last + 1, 1))
-    found = optimizers.build(VISUALIZATION_OPTIMIZER).optimize(
-        objective, np.vstack([positions, pose.position]), [last], neighbors
-    )
-    place: NDArray[np.float64] = found.embedding[last]
-    apart = _APART * (float(np.ptp(positions, axis=0).max()) or 1.0)
-    distances = np.linalg.norm(positions - place, axis=1)
-    if distances.min() >= apart:
-        return place
-    angles = 2 * np.pi * np.arange(_DIRECTIONS) / _DIRECTIONS
-    ring = positions[distances.argmin()] + apart * np.stack([np.cos(angles), np.sin(angles)], 1)
-    errors = objective(ring, np.full(len(ring), last))
-    gaps = np.linalg.norm(ring[:, None] - positions[None], axis=2).min(axis=1)
-    crowded = gaps < 0.5 * apart
-    best: NDArray[np.float64] = ring[np.lexsort([errors, crowded])[0]]
-    return best
-
-
 def check_clip(scene: Scene, space: PoseSpace) -> None:
     """Refuse a clip that cannot be the scene's own.
 
@@ -283,7 +215,14 @@ def check_clip(scene: Scene, space: PoseSpace) -> None:
         )
 
 
-def _check_pose(space: PoseSpace, marker: Marker) -> None:
+def check_pose(space: PoseSpace, marker: Marker) -> None:
+    """Refuse a marker whose pose or frame a clip cannot have.
+
+    Raises
+    ------
+    WorkbenchError
+        If it has another number of joints, or no such frame.
+    """
     if len(marker.rotations) != space.samples.shape[1]:
         raise WorkbenchError(
             f"marker {marker.name!r}: got a pose of {len(marker.rotations)} joints, "
@@ -296,8 +235,20 @@ def _check_pose(space: PoseSpace, marker: Marker) -> None:
         )
 
 
-def _with_poses(space: PoseSpace, markers: Sequence[Marker]) -> PoseSpace:
-    """Append poses to a clip as further frames."""
+def with_poses(space: PoseSpace, markers: Sequence[Marker]) -> PoseSpace:
+    """Append the poses of markers to a clip as further frames.
+
+    Parameters
+    ----------
+    space : PoseSpace
+        The clip.
+    markers : sequence of Marker
+        Whose poses; possibly none.
+
+    Returns
+    -------
+    PoseSpace
+    """
     if not markers:
         return space
     motion: Motion = space.motion

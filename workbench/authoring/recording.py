@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from workbench.authoring.trajectories import Trajectory, above_zero
+from workbench.authoring.checking import above_zero
+from workbench.authoring.trajectories import Trajectory
 from workbench.errors import WorkbenchError
 from workbench.validation import as_numbers, finite
 

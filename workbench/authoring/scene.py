@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.authoring.trajectories import Trajectory, above_zero
+from workbench.authoring.checking import above_zero
+from workbench.authoring.trajectories import Trajectory
 from workbench.backprojection.radial import radial_kernel
 from workbench.errors import WorkbenchError
 from workbench.mocap.rotations import check_rotations

@@ -43,6 +43,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from workbench.authoring.fingerprint import clip_fingerprint
 from workbench.authoring.scene import Marker, Scene
 from workbench.authoring.trajectories import Trajectory
 from workbench.errors import DataError, WorkbenchError
@@ -92,26 +93,6 @@ class Session:
                 f"joints with the same rotations, got {len(motion)} of "
                 f"{motion.skeleton.n_joints}"
             )
-
-
-def clip_fingerprint(motion: Motion) -> str:
-    """Make a checksum of a clip's joint names and rotations.
-
-    Parameters
-    ----------
-    motion : Motion
-        The clip.
-
-    Returns
-    -------
-    str
-        SHA-256 in hexadecimal digits. Rotations count to six decimals, as computers differ in
-        the last ones.
-    """
-    check_motion(motion)
-    names = json.dumps([len(motion), *motion.skeleton.names])
-    millionths = np.rint(np.asarray(motion.rotations) * 1e6).astype("<i4")
-    return hashlib.sha256(names.encode() + millionths.tobytes()).hexdigest()
 
 
 def save_session(scene: Scene, motion: Motion, path: str | Path) -> None:

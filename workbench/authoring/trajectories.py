@@ -8,12 +8,11 @@ is going back to the one before.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from numbers import Real
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from workbench.authoring.checking import above_zero
 from workbench.errors import WorkbenchError
 from workbench.validation import as_embedding, as_numbers, finite, whole_number
 
@@ -304,16 +303,3 @@ def _ramp(along: NDArray[np.float64], index: int) -> NDArray[np.float64]:
     smooth = rise**2 * (3.0 - 2.0 * rise)
     smooth[0] = smooth[-1] = 0.0
     return smooth
-
-
-def above_zero(name: str, value: Any) -> float:
-    """Refuse what is no finite number above 0.
-
-    Raises
-    ------
-    WorkbenchError
-        If it is not; the message names the argument.
-    """
-    if not isinstance(value, Real) or isinstance(value, bool) or not 0 < float(value) < np.inf:
-        raise WorkbenchError(f"{name}: got {value!r}, want a number above 0")
-    return float(value)
