@@ -103,6 +103,21 @@ def test_the_curves_are_a_slider_that_follows_the_channel(mount: Callable) -> No
     assert slider.get_attribute("aria-valuenow") == "100"
 
 
+def test_keyframes_found_on_a_foot_are_told_apart(mount: Callable) -> None:
+    """They have a mark of their own, an entry in the legend, and words."""
+    widget = curves()
+    widget.foot_keyframes = [40]
+    page = mount(widget)
+    assert "▼ keyframe found on a foot" in page.locator(".wb-sides").inner_text()
+    slider = page.get_by_role("slider", name="Frame on the curves")
+    readings = []
+    for frame in (0, 40):
+        page.evaluate(f"{_CURVES}.show({frame})")
+        readings.append(slider.get_attribute("aria-valuetext"))
+    assert readings[0].endswith("· keyframe")
+    assert readings[1].endswith("· keyframe, found on a foot")
+
+
 def count_curve() -> CountCurve:
     return CountCurve(
         series=[

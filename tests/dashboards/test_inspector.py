@@ -9,16 +9,22 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from PIL import Image
 
+from tests.browser.chromium import chromium_path
 from workbench.dashboards import KeyframeInspector, inspect_keyframes
 from workbench.dashboards.inspector_plan import BEST
 from workbench.dashboards.inspector_session import counts_to_measure
 from workbench.datasets import load_space
 from workbench.errors import WorkbenchError
 from workbench.interpolation.slerp import Slerp
+from workbench.mocap.contacts import foot_heights
+from workbench.mocap.motion import Motion
+from workbench.mocap.skeleton import Skeleton
 from workbench.quality.animation import psnr
 from workbench.selection import register_selector
 from workbench.selection.saliency import Saliency
+from workbench.spaces import PoseSpace
 
 CLIP = "cmu/01_01-jump"
 
@@ -35,6 +41,7 @@ def inspector(shared: KeyframeInspector) -> KeyframeInspector:
     """Give the dashboard as it was first, whatever the test before did to it."""
     shared.open(CLIP)
     shared.controls.exact.value = False
+    shared.contacts = False
     shared.sigma, shared.components = 10.0, None
     shared.selector, shared.count = "uniform", 8
     return shared
@@ -67,6 +74,58 @@ def test_own_rule_and_parameters_are_those_of_the_saliency_method(
     assert inspector.result.saliency.curves.shape[1] == 9
     names = [row["name"] for row in inspector.view.curves.rows]
     assert names == ["error", *(f"component {i}" for i in range(1, 10))]
+
+
+def test_foot_contacts_can_be_handled(inspector: KeyframeInspector) -> None:
+    """Two of the k curves become the feet's heights, and what was found on them is told."""
+    inspector.selector, inspector.count = "saliency", None
+    without = inspector.keyframes
+    inspector.contacts, inspector.components = True, 9
+    method = Saliency(10.0, 9, contacts=True)
+    space = load_space(CLIP)
+    np.testing.assert_array_equal(inspector.keyframes, method.select(space))
+    assert not np.array_equal(inspector.keyframes, without)
+    heights = foot_heights(space.motion)
+    rows = [(row["name"], row.get("note", "")) for row in inspector.view.curves.rows]
+    assert len(rows) == 10
+    assert rows[-2:] == [("LeftFoot", "height"), ("RightFoot", "height")]
+    for curve, height in zip(inspector.view.curves.values[-2:], heights.T, strict=True):
+        assert np.corrcoef(curve, height)[0, 1] == pytest.approx(1.0)
+    on_feet = inspector.view.curves.foot_keyframes
+    assert 0 < len(on_feet) < len(inspector.keyframes)
+    assert set(on_feet.tolist()) < set(inspector.keyframes.tolist())
+    words = f"2 of the 9 curves are feet, {len(on_feet)} of the keyframes found on them"
+    assert words in inspector.view.root.children[2].value
+
+
+def test_feet_are_not_told_of_keyframes_that_they_did_not_bring(
+    inspector: KeyframeInspector,
+) -> None:
+    """Another method's keyframes may lie where a foot is salient; that is chance."""
+    inspector.contacts = True
+    assert inspector.result is not None
+    assert inspector.result.saliency.is_foot.sum() == 2
+    assert not len(inspector.result.foot_keyframes)
+
+
+def test_a_body_without_feet_is_told_and_loses_nothing(inspector: KeyframeInspector) -> None:
+    """Where no feet are found, contacts cannot be handled; what was shown stays."""
+    names = ("Hips", "Spine", "Neck")
+    rotations = np.tile(np.eye(3), (30, 3, 1, 1))
+    angles = np.sin(np.linspace(0, 9, 30))
+    rotations[:, 1, :2, :2] = np.moveaxis(
+        np.array([[np.cos(angles), -np.sin(angles)], [np.sin(angles), np.cos(angles)]]), 2, 0
+    )
+    channels = (("Zrotation", "Xrotation", "Yrotation"),) * 3
+    skeleton = Skeleton(names, np.array([-1, 0, 1]), np.eye(3), (), channels)
+    motion = Motion(skeleton, rotations, np.zeros((30, 3)), 0.01, name="worm")
+    inspector.open(PoseSpace(motion))
+    before = inspector.keyframes
+    inspector.contacts = True
+    assert "feet of 'worm'" in inspector.message
+    np.testing.assert_array_equal(inspector.keyframes, before)
+    inspector.contacts = False
+    assert inspector.message == ""
 
 
 def test_other_methods_take_as_many_as_saliency_finds(inspector: KeyframeInspector) -> None:
@@ -152,10 +211,11 @@ def test_a_registered_selector_is_offered_and_used(inspector: KeyframeInspector)
         ("selector", "best", "selector: got 'best'"),
         ("sigma", 0.5, "sigma: got 0.5"),
         ("components", 31, "components: got 31"),
+        ("contacts", "yes", "contacts: got 'yes'"),
         ("count", 1, "count: got 1"),
         ("random_state", -1, "random_state: got -1"),
     ],
-    ids=["selector", "sigma", "components", "count", "random_state"],
+    ids=["selector", "sigma", "components", "contacts", "count", "random_state"],
 )
 def test_arguments_are_checked(argument: str, value: object, words: str) -> None:
     """The message names the argument and what it got."""
@@ -181,12 +241,24 @@ def test_the_views_show_the_same_keyframes(inspector: KeyframeInspector) -> None
 
 
 def test_pictures_are_saved_as_svg(inspector: KeyframeInspector, tmp_path: Path) -> None:
-    """The files hold what is shown; other endings are refused."""
+    """The file holds what is shown; other endings are refused."""
     strip = inspector.save_filmstrip(tmp_path / "strip.svg")
     assert strip.read_text() == inspector.view.filmstrip.svg
     assert inspector.save_thumbnail(tmp_path / "small.svg").stat().st_size > 1000
-    with pytest.raises(WorkbenchError, match=r"ends in \.svg"):
+    with pytest.raises(WorkbenchError, match=r"ends in \.svg or \.png"):
         inspector.save_filmstrip(tmp_path / "strip.gif")
+
+
+@pytest.mark.browser
+def test_pictures_are_saved_as_png(inspector: KeyframeInspector, tmp_path: Path) -> None:
+    """The picture has two pixels for each of the drawing, and shows the blue of left limbs."""
+    if chromium_path() is None:
+        pytest.skip("no chromium on this machine: no PNG can be made")
+    strip = inspector.save_filmstrip(tmp_path / "strip.png")
+    with Image.open(strip) as image:
+        assert image.width == 2000
+        pixels = np.asarray(image.convert("RGB")).reshape(-1, 3).astype(int)
+    assert (np.abs(pixels - [0x00, 0x72, 0xB2]).max(axis=1) < 8).sum() > 500
 
 
 def test_a_computation_can_be_cancelled_and_repeated(inspector: KeyframeInspector) -> None:

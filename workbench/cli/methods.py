@@ -130,18 +130,14 @@ def _write_svg(path: Path, motion: Motion, frames: Any) -> None:
 
 
 def _write_png(path: Path, motion: Motion, frames: Any) -> None:
-    from tempfile import TemporaryDirectory
-
     from workbench.figures.thumbnails import thumbnail
-    from workbench.reproduction.images import write_pngs
+    from workbench.reproduction.figure_png import figure_png
 
-    with TemporaryDirectory() as folder:
-        figure = Path(folder) / "thumbnail.json"
-        figure.write_text(thumbnail(motion, frames).to_json(), encoding="utf-8")
-        complaint = write_pngs([figure])
-        if complaint:
-            raise WorkbenchError(f"--thumbnail: {complaint} An .svg file needs no browser.")
-        write(path, figure.with_suffix(".png").read_bytes())
+    try:
+        content = figure_png(thumbnail(motion, frames))
+    except WorkbenchError as error:
+        raise WorkbenchError(f"--thumbnail: {error}") from None
+    write(path, content)
 
 
 def _embedding_table(result: SpatialResult) -> Any:

@@ -2,38 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.dashboards.background import Background
-from workbench.dashboards.home import Home, running_loop
-from workbench.dashboards.inspector_controls import COMPONENTS, SIGMAS, InspectorControls
-from workbench.dashboards.inspector_jobs import (
-    Clip,
-    ErrorCurve,
-    Job,
-    KeyframeResult,
-    Selectors,
+from workbench.dashboards.inspector_controls import COMPONENTS, SIGMAS
+from workbench.dashboards.inspector_jobs import ErrorCurve, KeyframeResult
+from workbench.dashboards.inspector_live import LiveInspector
+from workbench.dashboards.inspector_pictures import (
+    FILMSTRIP,
+    THUMBNAIL,
+    check_picture_path,
+    write_keyframes,
 )
-from workbench.dashboards.inspector_plan import InspectorPlan
-from workbench.dashboards.inspector_session import InspectorSession
-from workbench.dashboards.inspector_view import InspectorView
-from workbench.dashboards.sources import Source, available, loaded_here, reread, source_of
-from workbench.dashboards.worker import Worker
+from workbench.dashboards.sources import source_of
 from workbench.errors import WorkbenchError
-from workbench.files import write_atomically
 from workbench.spaces import PoseSpace
 from workbench.validation import whole_number
 
 Data = str | Path | PoseSpace
-
-#: Up to so many frames the best of all keyframes take seconds only.
-_FEW_FRAMES = 400
 
 
 def inspect_keyframes(
@@ -42,6 +31,7 @@ def inspect_keyframes(
     selector: str = "saliency",
     sigma: float = 10.0,
     components: int | None = None,
+    contacts: bool = False,
     count: int | None = None,
     random_state: int = 0,
 ) -> KeyframeInspector:
@@ -59,6 +49,9 @@ def inspect_keyframes(
     components : int, optional
         k, its number of principal components, 1 to 30; by default as many as keep 90 % of the
         variance, but at least 7.
+    contacts : bool
+        Whether the saliency method handles moments at which a foot touches the ground: the
+        heights of the feet are then two of the k curves, with a window of their own.
     count : int, optional
         How many keyframes; by default as many as the saliency method finds by its own rule.
     random_state : int
@@ -79,6 +72,7 @@ def inspect_keyframes(
         selector=selector,
         sigma=sigma,
         components=components,
+        contacts=contacts,
         count=count,
         random_state=random_state,
     )
@@ -92,7 +86,7 @@ class KeyframeInspector:
 
     Parameters
     ----------
-    clip, selector, sigma, components, count, random_state
+    clip, selector, sigma, components, contacts, count, random_state
         As for :func:`inspect_keyframes`.
 
     Attributes
@@ -110,31 +104,19 @@ class KeyframeInspector:
         selector: str = "saliency",
         sigma: float = 10.0,
         components: int | None = None,
+        contacts: bool = False,
         count: int | None = None,
         random_state: int = 0,
     ) -> None:
-        self._quiet = True
-        source = source_of(clip)
-        self._methods = Selectors()
-        clips = [choice for choice in available() if choice.clip or choice.name == choice.text]
-        self.controls = InspectorControls(clips, self._methods.registry.names())
+        self._live = LiveInspector(source_of(clip))
+        self.controls, self.view = self._live.controls, self._live.view
         self.selector, self.sigma, self.components = selector, sigma, components
-        self.count = count
+        self.contacts, self.count = contacts, count
         self.controls.seed.value = whole_number("random_state", random_state, at_least=0)
-        self.controls.choose(source)
-        self._plan = InspectorPlan(source, self.controls)
-        self.view = InspectorView(self.controls)
-        self._backgrounds: list[Background] = []
-        # Two processes, so that keyframes need not wait for curves, which take seconds.
-        self._worker = self._worker_for(self._plan.missing)
-        self._curve_worker = self._worker_for(self._plan.missing_curves)
-        self._live = False
-        self._connect()
-        self._quiet = False
-        self._wake()
+        self._live.start()
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
-        self.controls.offer(self._methods.registry.names())
+        self._live.offer()
         return self.view.root._repr_mimebundle_(**kwargs)
 
     # What a notebook reads and sets.
@@ -142,32 +124,36 @@ class KeyframeInspector:
     @property
     def result(self) -> KeyframeResult | None:
         """What is shown; None as long as there are no keyframes."""
-        return self._plan.last
+        return self._live.plan.last
 
     @property
     def keyframes(self) -> NDArray[np.intp]:
         """The chosen frames, sorted; empty as long as there are none."""
-        return np.empty(0, dtype=np.intp) if self._plan.last is None else self._plan.last.keyframes
+        return (
+            np.empty(0, dtype=np.intp)
+            if self._live.plan.last is None
+            else self._live.plan.last.keyframes
+        )
 
     @property
     def errors(self) -> NDArray[np.float64]:
         """Error of each rebuilt frame per joint, in radians; empty as long as there are none."""
-        return np.empty(0) if self._plan.last is None else self._plan.last.errors
+        return np.empty(0) if self._live.plan.last is None else self._live.plan.last.errors
 
     @property
     def psnr(self) -> float:
         """Peak signal-to-noise ratio of the joint angles in dB; not a number if unknown."""
-        return float("nan") if self._plan.last is None else self._plan.last.psnr
+        return float("nan") if self._live.plan.last is None else self._live.plan.last.psnr
 
     @property
     def error_curves(self) -> dict[str, ErrorCurve]:
         """Errors against the number of keyframes, by method, as far as they are there."""
-        return self._plan.curves
+        return self._live.plan.curves
 
     @property
     def message(self) -> str:
         """Why what was asked for is not shown; empty if it is."""
-        return "; ".join(self._plan.told())
+        return "; ".join(self._live.plan.told())
 
     @property
     def selector(self) -> str:
@@ -177,8 +163,8 @@ class KeyframeInspector:
 
     @selector.setter
     def selector(self, name: str) -> None:
-        self._methods.registry.factory(name)  # refuses it and says which there are
-        self.controls.offer(self._methods.registry.names())
+        self._live.selectors.factory(name)  # refuses it and says which there are
+        self._live.offer()
         self.controls.selector.value = name
 
     @property
@@ -208,6 +194,18 @@ class KeyframeInspector:
         self.controls.set_components(components)
 
     @property
+    def contacts(self) -> bool:
+        """Whether the saliency method handles moments at which a foot touches the ground."""
+        handled: bool = self.controls.contacts.value
+        return handled
+
+    @contacts.setter
+    def contacts(self, contacts: bool) -> None:
+        if not isinstance(contacts, (bool, np.bool_)):
+            raise WorkbenchError(f"contacts: got {contacts!r}, want True or False")
+        self.controls.contacts.value = bool(contacts)
+
+    @property
     def count(self) -> int | None:
         """How many keyframes are wanted; None for as many as saliency finds."""
         return self.controls.wanted_count
@@ -222,147 +220,39 @@ class KeyframeInspector:
 
     async def finished(self) -> None:
         """Wait until everything is computed: ``await inspector.finished()``."""
-        for worker in (self._worker, self._curve_worker):
-            await worker.finished()
+        await self._live.finished()
 
     def open(self, clip: Data) -> None:
         """Show another clip; the one shown now stays if the new one cannot be loaded."""
-        source = source_of(clip)
-        self._plan.failures.pop(source, None)
-        self._plan.wanted = source
-        with self._silence():
-            self.controls.choose(source)
-        self._wake()
+        self._live.want(source_of(clip))
 
     def cancel(self) -> None:
         """End what is being computed; what is complete stays."""
-        for worker in (self._worker, self._curve_worker):
-            worker.cancel()
+        self._live.cancel()
 
     def recompute(self) -> None:
         """Compute what failed or was cancelled, or everything anew if nothing did.
 
         A file that was edited meanwhile is read again.
         """
-        self.controls.offer(self._methods.registry.names())
-        plan = self._plan
-        wanted = reread(plan.wanted)
-        if not plan.failures and wanted == plan.wanted:
-            plan.forget()
-        plan.failures.clear()
-        plan.wanted = wanted
-        self._wake()
+        self._live.recompute()
 
     def save_filmstrip(self, path: str | Path) -> Path:
-        """Write the filmstrip as an SVG file; one that exists is replaced."""
-        return self._save(path, "filmstrip")
+        """Write the filmstrip as SVG or PNG, by the name's ending; a file there is replaced."""
+        return self._save(path, FILMSTRIP)
 
     def save_thumbnail(self, path: str | Path) -> Path:
-        """Write the thumbnail as an SVG file; one that exists is replaced."""
-        return self._save(path, "thumbnail")
+        """Write the thumbnail as SVG or PNG, by the name's ending; a file there is replaced."""
+        return self._save(path, THUMBNAIL)
 
     def close(self) -> None:
-        """End the process that computes, and take the dashboard out of the page."""
-        for background in self._backgrounds:
-            background.stop()
-        self.view.root.close()
+        """End the processes that compute, and take the dashboard out of the page."""
+        self._live.close()
 
-    def _save(self, path: str | Path, picture: str) -> Path:
-        target = Path(path)
-        if target.suffix.lower() != ".svg":
-            raise WorkbenchError(f"path: got {str(path)!r}, want a name that ends in .svg")
-        if self._plan.last is None:
+    def _save(self, path: str | Path, kind: str) -> Path:
+        target = check_picture_path(path)
+        clip, result = self._live.plan.clip, self._live.plan.last
+        if clip is None or result is None:
             raise WorkbenchError("keyframes: got none so far, want some to draw")
-        write_atomically(target, getattr(self._plan.last, picture).encode())
+        write_keyframes(target, kind, clip.motion, result.keyframes, clip.name)
         return target
-
-    # Computing.
-
-    def _worker_for(self, missing: Callable[[], list[Job]]) -> Worker[Job]:
-        background = Background(InspectorSession)
-        self._backgrounds.append(background)
-        return Worker(
-            background,
-            missing=missing,
-            failures=self._plan.failures,
-            prepare=self._prepared,
-            done=self._take,
-            changed=self._show,
-            report=self._report,
-        )
-
-    def _wake(self) -> None:
-        self._live = running_loop() is not None
-        self._worker.wake()
-        self._curve_worker.wake()
-
-    def _prepared(self, job: Job) -> tuple[Job, Selectors]:
-        return (loaded_here(job) if isinstance(job, Source) else job), self._methods
-
-    def _take(self, job: Job, result: Any) -> None:
-        self._plan.take(job, result)
-        if isinstance(result, Clip):
-            with self._silence():
-                self.controls.suit(len(result.motion))
-                self.controls.exact.value = len(result.motion) <= _FEW_FRAMES
-            self.view.show_clip(result)
-            if self._live:  # otherwise they are computed when this is done
-                self._curve_worker.wake()
-
-    def _report(self, text: str, done: float | None) -> None:
-        part = (done or 0.0) / len(self._plan.jobs())
-        self.view.progress.show(text, min(1.0, self._plan.share_done() + part))
-
-    # Showing.
-
-    def _show(self) -> None:
-        plan, view = self._plan, self.view
-        clip, result = plan.clip, plan.result
-        if clip is not None and result is not None:
-            plan.last = result
-            view.show_keyframes(clip, result)
-        view.show_counts(plan.curves, plan.last, plan.about_curves())
-        view.progress.show_busy(
-            any(w.current is not None for w in (self._worker, self._curve_worker))
-        )
-        view.show_message(clip, plan.last, plan.told())
-
-    @contextmanager
-    def _silence(self) -> Iterator[None]:
-        """Change what is shown without taking it for a person's wish."""
-        before, self._quiet = self._quiet, True
-        try:
-            yield
-        finally:
-            self._quiet = before
-
-    # What a person does.
-
-    def _connect(self) -> None:
-        here = Home().here
-        self.controls.on_settings(here(self._on_settings))
-        self.controls.data.observe(here(self._on_clip), "value")
-        self.controls.open.on_click(here(self._on_open))
-        self.view.counts.observe(here(self._on_picked), "picked")
-        self.view.progress.cancel.on_click(here(lambda _: self.cancel()))
-        self.view.progress.again.on_click(here(lambda _: self.recompute()))
-
-    def _on_settings(self) -> None:
-        if not self._quiet:
-            self._wake()
-
-    def _on_clip(self, change: Any) -> None:
-        if change["new"] and not self._quiet:
-            self.open(change["new"])
-
-    def _on_open(self, _: Any) -> None:
-        if self.controls.path.value.strip():
-            self.open(self.controls.path.value)
-
-    def _on_picked(self, change: Any) -> None:
-        if change["new"] < 2:
-            return
-        with self._silence():
-            self.count = min(change["new"], self.controls.count.max)
-            self.view.counts.picked = 0
-        self._wake()

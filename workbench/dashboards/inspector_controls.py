@@ -10,6 +10,7 @@ from workbench.dashboards.data_controls import DataControls
 from workbench.dashboards.inspector_jobs import Method
 from workbench.dashboards.layout import FITTING, control_row, offer_names, seed_field
 from workbench.dashboards.sources import Choice
+from workbench.widgets.slider_names import SliderNames
 
 #: Ranges of σ in frames, and of k.
 SIGMAS, COMPONENTS = (1.0, 30.0), (1, 30)
@@ -46,7 +47,8 @@ class InspectorControls(DataControls):
                 control_row([self.data, self.own]),
                 self.own_row,
                 control_row([self.selector, self.sigma, self.usual_components, self.components]),
-                control_row([self.own_rule, self.count, self.seed, self.exact]),
+                control_row([self.contacts, self.own_rule, self.count, self.seed, self.exact]),
+                SliderNames(),
             ]
         )
 
@@ -54,7 +56,13 @@ class InspectorControls(DataControls):
     def method(self) -> Method:
         """How keyframes are to be chosen."""
         components = None if self.usual_components.value else self.components.value
-        return Method(self.selector.value, self.sigma.value, components, self.seed.value)
+        return Method(
+            self.selector.value,
+            self.sigma.value,
+            components,
+            contacts=self.contacts.value,
+            seed=self.seed.value,
+        )
 
     @property
     def wanted_count(self) -> int | None:
@@ -77,7 +85,7 @@ class InspectorControls(DataControls):
     def on_settings(self, act: Callable[[], None]) -> None:
         """Call back when a setting changed that keyframes depend on."""
         parts = (self.selector, self.sigma, self.usual_components, self.components)
-        for part in (*parts, self.own_rule, self.count, self.seed, self.exact):
+        for part in (*parts, self.contacts, self.own_rule, self.count, self.seed, self.exact):
             part.observe(lambda _: act(), "value")
 
     def offer(self, selectors: Sequence[str]) -> None:
@@ -121,6 +129,13 @@ class InspectorControls(DataControls):
             continuous_update=False,
             style=FITTING,
             layout=widgets.Layout(width="260px", max_width="98%"),
+        )
+
+        self.contacts = widgets.Checkbox(
+            description="handle foot contacts",
+            tooltip="Feet get curves of their own, with a window of 3 frames",
+            indent=False,
+            layout=widgets.Layout(width="180px"),
         )
 
     def _make_count_controls(self) -> None:

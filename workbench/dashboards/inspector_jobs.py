@@ -40,6 +40,8 @@ class Method:
         σ of the saliency method, in frames.
     n_components : int or None
         k of the saliency method; None for as many as keep 90 % of the variance.
+    contacts : bool
+        Whether the saliency method handles moments at which a foot touches the ground.
     seed : int
         Of a selector that draws at random.
     """
@@ -47,12 +49,15 @@ class Method:
     selector: str
     sigma: float
     n_components: int | None
+    contacts: bool
     seed: int
 
     @property
     def for_counts(self) -> Method:
         """The same method without what does not matter once a number is given."""
-        return self if self.selector == "saliency" else Method(self.selector, 0.0, None, self.seed)
+        if self.selector == "saliency":
+            return self
+        return Method(self.selector, 0.0, None, contacts=False, seed=self.seed)
 
 
 @dataclass(frozen=True)
@@ -146,6 +151,8 @@ class KeyframeResult:
         express what was rebuilt.
     saliency : MotionSaliency
         Curves of the clip with their salient frames.
+    foot_keyframes : ndarray of shape (n_foot_keyframes,)
+        Those of the keyframes that the saliency method found on the feet's curves.
     filmstrip, thumbnail : str
         Pictures of the keyframes, as SVG.
     seconds : float
@@ -159,6 +166,7 @@ class KeyframeResult:
     errors: NDArray[np.float64]
     psnr: float
     saliency: MotionSaliency
+    foot_keyframes: NDArray[np.intp]
     filmstrip: str
     thumbnail: str
     seconds: float

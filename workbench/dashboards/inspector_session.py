@@ -20,11 +20,16 @@ from workbench.dashboards.inspector_jobs import (
     Method,
     Selectors,
 )
+from workbench.dashboards.inspector_pictures import (
+    FILMSTRIP,
+    THUMBNAIL,
+    fitting_keyframes,
+    keyframe_svg,
+)
 from workbench.dashboards.remarks import said_by_warnings
 from workbench.dashboards.sources import Source, load_source
 from workbench.errors import WorkbenchError
 from workbench.mocap.foot_contacts import foot_contacts
-from workbench.mocap.motion import Motion
 from workbench.quality.animation import psnr
 from workbench.schemes import TemporalScheme
 from workbench.selection.optimal import Optimal
@@ -33,9 +38,6 @@ from workbench.spaces import PoseSpace
 
 #: Numbers of keyframes on an error curve, and the range of the largest.
 _POINTS, _FEW, _MANY, _SHARE = 12, 12, 60, 0.1
-
-#: Poses that fit into one picture, and into a row of it.
-_MOST_POSES, _IN_A_ROW = 40, 10
 
 
 class InspectorSession:
@@ -77,7 +79,9 @@ class InspectorSession:
         space = self._load(job.source, report)
         with said_by_warnings() as said:
             report("measuring saliency", 0.1)
-            by_saliency = Saliency(job.method.sigma, job.method.n_components)
+            by_saliency = Saliency(
+                job.method.sigma, job.method.n_components, contacts=job.method.contacts
+            )
             saliency = by_saliency.measure(space.motion)
             count = job.count
             if count is None and job.method.selector != "saliency":
@@ -93,18 +97,22 @@ class InspectorSession:
             ratio = float("nan")
             said.append(f"no PSNR: {error}")
         report("drawing the keyframes", 0.7)
-        shown = _shown(result.control_points)
-        if len(shown) < len(result.control_points):
-            said.append(f"pictures show {len(shown)} of {len(result.control_points)} keyframes")
-        strip, thumbnail = _pictures(space.motion, shown, job.source.name)
+        keyframes = result.control_points
+        shown = fitting_keyframes(keyframes)
+        if len(shown) < len(keyframes):
+            said.append(f"pictures show {len(shown)} of {len(keyframes)} keyframes")
+        # The first and the last frame are keyframes whatever the feet do.
+        inner = keyframes[1:-1] if job.method.selector == "saliency" else keyframes[:0]
+        drawing = (space.motion, keyframes, job.source.name)
         return KeyframeResult(
-            keyframes=result.control_points,
+            keyframes=keyframes,
             reconstruction=rebuilt,
             errors=result.errors,
             psnr=ratio,
             saliency=saliency,
-            filmstrip=strip,
-            thumbnail=thumbnail,
+            foot_keyframes=inner[saliency.foot_candidates[inner]],
+            filmstrip=keyframe_svg(FILMSTRIP, *drawing),
+            thumbnail=keyframe_svg(THUMBNAIL, *drawing),
             seconds=result.timings.total,
             notes=tuple(dict.fromkeys(said)),
         )
@@ -152,28 +160,11 @@ def counts_to_measure(n_frames: int) -> NDArray[np.intp]:
 def _scheme(method: Method, methods: Selectors) -> TemporalScheme:
     if method.selector == "saliency":
         selector = methods.registry.create(
-            "saliency", sigma=method.sigma, n_components=method.n_components
+            "saliency",
+            sigma=method.sigma,
+            n_components=method.n_components,
+            contacts=method.contacts,
         )
     else:
         selector = methods.registry.create(method.selector)
     return TemporalScheme("slerp", selector)
-
-
-def _shown(keyframes: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Choose keyframes for a picture, evenly if there are too many, the ends among them."""
-    places = np.linspace(0, len(keyframes) - 1, min(len(keyframes), _MOST_POSES))
-    return keyframes[places.round().astype(np.intp)]
-
-
-def _pictures(motion: Motion, keyframes: NDArray[np.intp], name: str) -> tuple[str, str]:
-    # Imported here: who loads a clip need not wait for plotly.
-    from workbench.figures.filmstrips import filmstrip
-    from workbench.figures.line_svg import line_svg
-    from workbench.figures.thumbnails import thumbnail_svg
-
-    strip = line_svg(
-        filmstrip(motion, keyframes, n_columns=_IN_A_ROW),
-        title=f"Keyframes of {name}",
-        description=f"Poses of frames {', '.join(map(str, keyframes))}, side by side.",
-    )
-    return strip, thumbnail_svg(motion, keyframes, height=220)

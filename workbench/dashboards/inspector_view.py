@@ -71,7 +71,7 @@ class InspectorView:
                 setattr(self.player, name, value)
         with self.curves.hold_sync():
             self.curves.rows, self.curves.frame = [], 0
-            for name in ("values", "weights", "candidates", "keyframes"):
+            for name in ("values", "weights", "candidates", "keyframes", "foot_keyframes"):
                 setattr(self.curves, name, [])
             self.curves.contacts = contacts
             self.curves.frame_time = float(clip.motion.frame_time)
@@ -88,12 +88,13 @@ class InspectorView:
             for name, value in motion_traits(motions).items():
                 setattr(self.player, name, value)
             self.player.keyframes = result.keyframes
-        rows, values, weights, candidates = _rows(result)
+        rows, values, weights, candidates = _rows(clip, result)
         with self.curves.hold_sync():
             self.curves.rows = rows
             self.curves.values, self.curves.weights = values, weights
             self.curves.candidates = candidates
             self.curves.keyframes = result.keyframes
+            self.curves.foot_keyframes = result.foot_keyframes
         n = len(result.keyframes)
         for picture, svg, words in (
             (self.filmstrip, result.filmstrip, "side by side"),
@@ -165,20 +166,20 @@ def _contacts(clip: Clip) -> list[dict[str, Any]]:
 
 
 def _rows(
-    result: KeyframeResult,
+    clip: Clip, result: KeyframeResult
 ) -> tuple[list[dict[str, str]], NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-    """Put the error and the components in rows: what they are, values, weights, candidates."""
+    """Put the error, components and feet in rows: what they are, values, weights, candidates."""
     saliency = result.saliency
     means = saliency.saliency.mean(axis=0)
     weights = saliency.saliency / np.where(means > 0, means, 1.0)
     n_frames, n_curves = saliency.curves.shape
     nothing = np.zeros((1, n_frames))
+    feet = [foot.joint for foot in clip.contacts] if saliency.is_foot.any() else []
+    components = [f"component {curve + 1}" for curve in range(n_curves - len(feet))]
     rows = [
         {"name": "error", "kind": "amount", "unit": "rad per joint"},
-        *(
-            {"name": f"component {curve + 1}", "kind": "curve", "unit": ""}
-            for curve in range(n_curves)
-        ),
+        *({"name": name, "kind": "curve", "unit": ""} for name in components),
+        *({"name": name, "kind": "curve", "unit": "", "note": "height"} for name in feet),
     ]
     return (
         rows,
@@ -198,12 +199,22 @@ def _about(clip: Clip, result: KeyframeResult | None) -> str:
         words.append(f"error {result.error:.3g} rad per frame per joint")
         if np.isfinite(result.psnr):
             words.append(f"PSNR {result.psnr:.1f} dB")
-        share = result.saliency.explained_variance_ratio
-        n_curves = result.saliency.curves.shape[1]
-        words.append(f"{n_curves} components keep {share:.0%} of the variance")
+        words += _about_saliency(result)
         notes += result.notes
     text = " · ".join(words)
     return remark(clip.name, text, "; ".join(notes))
+
+
+def _about_saliency(result: KeyframeResult) -> list[str]:
+    saliency = result.saliency
+    n_feet = int(saliency.is_foot.sum())
+    n_components = len(saliency.is_foot) - n_feet
+    share = saliency.explained_variance_ratio
+    words = [f"{n_components} components keep {share:.0%} of the variance"]
+    if n_feet:
+        found = f"{len(result.foot_keyframes)} of the keyframes found on them"
+        words.append(f"{n_feet} of the {len(saliency.is_foot)} curves are feet, {found}")
+    return words
 
 
 def _file_name(name: str) -> str:

@@ -65,6 +65,11 @@ class MotionSaliency:
         weights = self.weights[salient]
         return self.saliency[:, salient] @ (weights / (means[salient] * weights.sum()))
 
+    @property
+    def foot_candidates(self) -> NDArray[np.bool_]:
+        """Frames that are candidates on a foot and so decide their cluster: (n_frames,)."""
+        return np.asarray(self.candidates[:, self.is_foot].any(axis=1))
+
     def keyframes_of_clusters(self, length: int) -> NDArray[np.intp]:
         """Find the keyframes that shorter, and so more, or longer clusters have.
 

@@ -19,7 +19,7 @@ class TimeCurves(anywidget.AnyWidget):
     ----------
     rows : list of dict
         For each curve ``name``, ``unit`` and ``kind``: "curve" for a line coloured by weight,
-        "amount" for what is 0 or more.
+        "amount" for what is 0 or more; of a curve also ``note``, a word below its name.
     values : array of shape (n_rows, n_frames), float32
         The curves.
     weights : array of shape (n_rows, n_frames), float32
@@ -28,6 +28,8 @@ class TimeCurves(anywidget.AnyWidget):
         1 for candidates.
     keyframes : array of shape (n_keyframes,), int32
         Chosen frames.
+    foot_keyframes : array of shape (n_foot_keyframes,), int32
+        Those of them that were found on a foot.
     contacts : list of dict
         For each foot ``name``, ``side`` and ``spans``, a list of [first, last] frames.
     frame_time : float
@@ -48,6 +50,7 @@ class TimeCurves(anywidget.AnyWidget):
     weights = ArrayTrait("<f4")
     candidates = ArrayTrait("u1")
     keyframes = SelectionTrait()
+    foot_keyframes = SelectionTrait()
     contacts = traitlets.List(traitlets.Dict()).tag(sync=True)
     frame_time = traitlets.Float(1.0).tag(sync=True)
     frame = traitlets.Int(0).tag(sync=True)

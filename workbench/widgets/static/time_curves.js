@@ -8,6 +8,7 @@ const SALIENCY_STOPS = {
   light: [[176, 190, 204], [92, 152, 205], [30, 92, 158], [8, 22, 48]],
   dark: [[78, 90, 102], [72, 140, 196], [140, 205, 250], [246, 251, 255]],
 };
+const KEY_SHAPES = { usual: [[0, -5], [4, 0], [0, 5], [-4, 0]], foot: [[-4.5, -4.5], [4.5, -4.5], [0, 5]] };
 const CURVES_HINT = "Press or drag, or use arrow keys, to show a frame in the player.";
 
 class TimeCurves {
@@ -20,7 +21,7 @@ class TimeCurves {
     this.readout = element("div", { class: "wb-detail" });
     this.legend = element("div", { class: "wb-sides" });
     root.append(this.message, this.box, this.readout, this.legend);
-    onTraits(model, ["rows", "values", "weights", "candidates", "keyframes", "contacts", "frame_time", "message"], () => this.read(), signal);
+    onTraits(model, ["rows", "values", "weights", "candidates", "keyframes", "foot_keyframes", "contacts", "frame_time", "message"], () => this.read(), signal);
     onHover(model, (frame) => !this.announcing && frame >= 0 && this.show(frame), signal);
     watchTheme(() => this.draw(), signal);
     const observer = new ResizeObserver(() => this.box.clientWidth !== this.width && this.draw());
@@ -38,6 +39,7 @@ class TimeCurves {
     this.weights = typed(model.get("weights"), Float32Array);
     this.candidates = typed(model.get("candidates"), Uint8Array);
     this.keyframes = [...typed(model.get("keyframes"), Int32Array)];
+    this.onFeet = new Set(typed(model.get("foot_keyframes"), Int32Array));
     this.contacts = model.get("contacts");
     const frames = this.rows.length ? this.values.length / this.rows.length : 0;
     // Traits of another clip may come one after the other.
@@ -92,9 +94,14 @@ class TimeCurves {
     const row = y === undefined ? -1 : Math.floor((y - ROWS.top) / this.pitch);
     const text = `frame ${frame} · ${(frame * this.model.get("frame_time")).toFixed(2)} s`;
     const named = this.rows[row] ? ` · ${this.rows[row].name}: ${this.describe(row, frame)}` : "";
-    this.readout.textContent = `${text}${this.keyframes.includes(frame) ? " · keyframe" : ""}${named}`;
+    this.readout.textContent = `${text}${this.aboutKey(frame)}${named}`;
     this.over.setAttribute("aria-valuenow", String(frame));
     this.over.setAttribute("aria-valuetext", this.readout.textContent);
+  }
+
+  aboutKey(frame) {
+    if (!this.keyframes.includes(frame)) return "";
+    return this.onFeet.has(frame) ? " · keyframe, found on a foot" : " · keyframe";
   }
 
   describe(row, frame) {
@@ -147,18 +154,18 @@ class TimeCurves {
       context.fillRect(x - 0.5, ROWS.top - 4, 1, bottom - ROWS.top + 4);
       context.globalAlpha = 1;
       context.beginPath();
-      [[0, -5], [4, 0], [0, 5], [-4, 0]].forEach(([dx, dy], i) => context[i ? "lineTo" : "moveTo"](x + dx, 7 + dy));
+      KEY_SHAPES[this.onFeet.has(key) ? "foot" : "usual"].forEach(([dx, dy], i) => context[i ? "lineTo" : "moveTo"](x + dx, 7 + dy));
       context.fill();
     }
   }
 
-  drawRow(context, { name, kind }, r) {
+  drawRow(context, { name, kind, note = "" }, r) {
     const top = ROWS.top + r * this.pitch;
     const values = this.values.subarray(r * this.frames, (r + 1) * this.frames);
     let [low, high] = [kind === "curve" ? Infinity : 0, -Infinity];
     for (const v of values) [low, high] = [Math.min(low, v), Math.max(high, v)];
     const y = (v) => top + 2 + (1 - (v - low) / (high - low || 1)) * (ROWS.tall - 4);
-    this.drawLabel(context, name, kind === "curve" ? "" : `max ${high.toPrecision(2)}`, top);
+    this.drawLabel(context, name, kind === "curve" ? note : `max ${high.toPrecision(2)}`, top);
     if (kind === "curve") this.drawSalient(context, values, r, y);
     else this.drawAmount(context, values, y, top + ROWS.tall);
     context.fillStyle = this.theme.palette[2];
@@ -268,6 +275,7 @@ class TimeCurves {
       : [];
     if (some) parts.push(mark(`background: ${this.theme.palette[2]}`, "candidate: above the mean"));
     if (this.keyframes.length) parts.push(element("span", { text: "◆ keyframe" }));
+    if (this.onFeet.size) parts.push(element("span", { text: "▼ keyframe found on a foot" }));
     if (this.contacts.length) parts.push(element("span", { text: "▬ foot on the ground" }));
     this.legend.replaceChildren(...parts);
   }
