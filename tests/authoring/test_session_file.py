@@ -61,6 +61,14 @@ def test_any_numbers_come_back(scene, jump, numbers):
     assert session_from_bytes(session_bytes(other, jump.motion)).scene.equals(other)
 
 
+def test_numbers_of_any_kind_are_kept(scene, jump):
+    """Numbers as numpy has them are stored like Python's own."""
+    other = edits.set_kernel(scene, "gaussian", np.float32(0.1))
+    other = edits.add_frame(other, jump, np.int32(7))
+    other = replace(other, frame_time=np.float32(0.05))
+    assert session_from_bytes(session_bytes(other, jump.motion)).scene.equals(other)
+
+
 def test_the_file_is_what_its_documentation_says(content):
     """One JSON object with the documented members, version 1."""
     parts = json.loads(content)

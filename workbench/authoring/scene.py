@@ -157,13 +157,13 @@ class Scene:
     def __post_init__(self) -> None:
         if not isinstance(self.clip, str) or not self.clip:
             raise WorkbenchError(f"clip: got {self.clip!r}, want a name")
-        above_zero("frame_time", self.frame_time)
+        object.__setattr__(self, "frame_time", above_zero("frame_time", self.frame_time))
         for switch in ("follows", "keep_feet"):
             if not isinstance(getattr(self, switch), bool):
                 raise WorkbenchError(f"{switch}: got {getattr(self, switch)!r}, want a yes or no")
         radial_kernel(self.kernel)
         if self.epsilon is not None:
-            above_zero("epsilon", self.epsilon)
+            object.__setattr__(self, "epsilon", above_zero("epsilon", self.epsilon))
         embedding = finite(as_numbers("embedding", self.embedding, 2), "embedding")
         if embedding.ndim != 2 or len(embedding) < MIN_SAMPLES:
             raise WorkbenchError(f"embedding: got shape {embedding.shape}, want (n_frames, 2)")
