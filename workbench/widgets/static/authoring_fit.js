@@ -9,64 +9,67 @@ const UNDETERMINED = 1e-10; // of the largest singular value
 /**
  * A radial function through values at places of the plane: `points` holds x and y of each,
  * `values` a row of outputs for each. Places that coincide share the mean of their values.
- * Throws if places are so close that no weights can be found.
+ * It is kept as what each place counts for at a point: to fit is to factorise one small
+ * matrix, whatever the number of outputs. Throws if places are too close to tell apart.
  */
 class FittedRadial {
   constructor({ kernel, epsilon, points, values }) {
     const places = mergedPlaces(points, values);
-    this.merged = places.merged;
-    this.outputs = values.length / (points.length / 2);
     const { nodes, middle, size } = scaledPlaces(places.points);
-    Object.assign(this, { middle, size, scaled: [0, 0] });
-    const width = KERNELS_WITH_WIDTH.includes(kernel) ? (epsilon || usualEpsilon(nodes) / size) * size : 1;
-    const coefficients = this.solve(kernel, width, nodes, places.values);
-    this.radial = new RadialFunction({ kernel, epsilon: width, centers: nodes, coefficients });
+    const n = nodes.length / 2;
+    const outputs = values.length / (points.length / 2);
+    Object.assign(this, { n, nodes, middle, size, merged: places.merged, rows: places.values, result: new Float64Array(outputs) });
+    this.width = KERNELS_WITH_WIDTH.includes(kernel) ? (epsilon ? epsilon * size : usualEpsilon(nodes)) : 1;
+    this.phi = RADIAL_KERNELS[kernel];
+    this.sign = KERNEL_SIGNS[kernel];
+    this.matrix = new Float64Array(n * n);
+    for (let j = 0; j < n; j++) this.matrix.set(this.basis(nodes[2 * j], nodes[2 * j + 1]), j * n);
+    this.seen = polynomialsAt(nodes);
+    this.factor = choleskyOf(definite(this.matrix, this.seen.left, n), n);
+  }
+
+  /** The kernel, with its sign, between a place and all nodes. */
+  basis(x, y) {
+    const { n, nodes, phi, sign, width } = this;
+    const row = new Float64Array(n);
+    for (let j = 0; j < n; j++) row[j] = sign * phi((x - nodes[2 * j]) ** 2 + (y - nodes[2 * j + 1]) ** 2, width);
+    return row;
+  }
+
+  /**
+   * What each node's value counts for at a place. With S the kernel matrix and P the linear
+   * polynomials, f = Σ w φ + P b with S w + P b = y and P'w = 0 is linear in y; so u = q + z,
+   * where q continues the polynomials and z, which they do not see, solves S z = φ − S q.
+   */
+  shares(x, y) {
+    const { n, matrix, seen, factor } = this;
+    const q = new Float64Array(n);
+    seen.left.forEach((column, k) => {
+      const along = (seen.right[k][0] + seen.right[k][1] * x + seen.right[k][2] * y) / seen.singular[k];
+      for (let i = 0; i < n; i++) q[i] += along * column[i];
+    });
+    const wanted = residual(matrix, q, this.basis(x, y));
+    const z = solved(factor, hidden(wanted.slice(), seen.left));
+    const rest = solved(factor, hidden(residual(matrix, z, wanted), seen.left));
+    for (let i = 0; i < n; i++) z[i] += rest[i];
+    hidden(z, seen.left);
+    for (let i = 0; i < n; i++) q[i] += z[i];
+    return q;
   }
 
   /** Evaluate at a place; the values are overwritten by the next call. */
   at([x, y]) {
-    this.scaled[0] = (x - this.middle[0]) / this.size;
-    this.scaled[1] = (y - this.middle[1]) / this.size;
-    return this.radial.at(this.scaled);
-  }
-
-  /** Solve S w + P b = y with P'w = 0, S the kernel matrix with its sign. */
-  solve(kernel, width, nodes, values) {
-    const { outputs } = this;
-    const n = nodes.length / 2;
-    const sign = KERNEL_SIGNS[kernel];
-    const matrix = new Float64Array(n * n);
-    for (let i = 0; i < n; i++) {
-      for (let j = 0; j < n; j++) {
-        const r2 = (nodes[2 * i] - nodes[2 * j]) ** 2 + (nodes[2 * i + 1] - nodes[2 * j + 1]) ** 2;
-        matrix[i * n + j] = sign * RADIAL_KERNELS[kernel](r2, width);
-      }
-    }
+    const { n, rows, result } = this;
+    const outputs = result.length;
+    const shares = this.shares((x - this.middle[0]) / this.size, (y - this.middle[1]) / this.size);
     // Relative to the first row, so that equal values stay equal everywhere.
-    const wanted = new Float64Array(n * outputs);
-    for (let i = 0; i < wanted.length; i++) wanted[i] = values[i] - values[i % outputs];
-    const seen = polynomialsAt(nodes);
-    const factor = choleskyOf(definite(matrix, seen.left, n), n);
-    const weights = wanted.slice();
-    hidden(weights, seen.left, outputs);
-    solveRows(factor, weights, n, outputs);
-    const rest = residual(matrix, weights, wanted, n, outputs);
-    hidden(rest, seen.left, outputs);
-    solveRows(factor, rest, n, outputs);
-    for (let i = 0; i < weights.length; i++) weights[i] += rest[i];
-    hidden(weights, seen.left, outputs);
-    const coefficients = new Float64Array((n + 3) * outputs);
-    for (let i = 0; i < weights.length; i++) coefficients[i] = sign * weights[i];
-    const left = residual(matrix, weights, wanted, n, outputs);
-    seen.left.forEach((column, k) => {
-      const share = shareOf(left, column, outputs);
-      for (let row = 0; row < 3; row++) {
-        const factorOfRow = seen.right[k][row] / seen.singular[k];
-        for (let o = 0; o < outputs; o++) coefficients[(n + row) * outputs + o] += factorOfRow * share[o];
-      }
-    });
-    for (let o = 0; o < outputs; o++) coefficients[n * outputs + o] += values[o];
-    return coefficients;
+    for (let o = 0; o < outputs; o++) result[o] = rows[o];
+    for (let i = 1; i < n; i++) {
+      const share = shares[i];
+      const row = i * outputs;
+      for (let o = 0; o < outputs; o++) result[o] += share * (rows[row + o] - rows[o]);
+    }
+    return result;
   }
 }
 
@@ -162,34 +165,28 @@ function dot(a, b) {
   return sum;
 }
 
-/** A row of outputs: the sum of rows, each times its entry of a column. */
-function shareOf(rows, column, outputs) {
-  const share = new Float64Array(outputs);
-  for (let i = 0; i < column.length; i++) for (let o = 0; o < outputs; o++) share[o] += column[i] * rows[i * outputs + o];
-  return share;
-}
-
-/** Take from rows what polynomials see of them. */
-function hidden(rows, left, outputs) {
+/** Take from weights what polynomials see of them, in place. */
+function hidden(weights, left) {
   for (const column of left) {
-    const share = shareOf(rows, column, outputs);
-    for (let i = 0; i < column.length; i++) for (let o = 0; o < outputs; o++) rows[i * outputs + o] -= column[i] * share[o];
+    const share = dot(weights, column);
+    for (let i = 0; i < weights.length; i++) weights[i] -= share * column[i];
   }
+  return weights;
 }
 
 /** The matrix among weights that polynomials do not see, and a multiple of one for the rest. */
 function definite(matrix, left, n) {
   const result = matrix.slice();
-  hidden(result, left, n);
-  const turned = new Float64Array(n * n);
-  for (let i = 0; i < n; i++) for (let j = 0; j < n; j++) turned[j * n + i] = result[i * n + j];
-  hidden(turned, left, n);
   let largest = 0;
   for (const v of matrix) largest = Math.max(largest, Math.abs(v));
-  for (const column of left) {
-    for (let i = 0; i < n; i++) for (let j = 0; j < n; j++) turned[i * n + j] += (largest || 1) * column[i] * column[j];
+  for (let round = 0; round < 2; round++) {
+    for (let i = 0; i < n; i++) hidden(result.subarray(i * n, (i + 1) * n), left);
+    for (let i = 0; i < n; i++) for (let j = 0; j < i; j++) [result[i * n + j], result[j * n + i]] = [result[j * n + i], result[i * n + j]];
   }
-  return turned;
+  for (const column of left) {
+    for (let i = 0; i < n; i++) for (let j = 0; j < n; j++) result[i * n + j] += (largest || 1) * column[i] * column[j];
+  }
+  return result;
 }
 
 function choleskyOf(matrix, n) {
@@ -206,34 +203,24 @@ function choleskyOf(matrix, n) {
   return factor;
 }
 
-/** Solve for all outputs at once, in place. */
-function solveRows(factor, rows, n, outputs) {
-  const take = (i, j, amount) => {
-    const [to, from] = [i * outputs, j * outputs];
-    for (let o = 0; o < outputs; o++) rows[to + o] -= amount * rows[from + o];
-  };
-  const divide = (i) => {
-    const by = factor[i * n + i];
-    for (let o = i * outputs; o < (i + 1) * outputs; o++) rows[o] /= by;
-  };
+/** Solve with a Cholesky factor, in place. */
+function solved(factor, vector) {
+  const n = vector.length;
   for (let i = 0; i < n; i++) {
-    for (let j = 0; j < i; j++) take(i, j, factor[i * n + j]);
-    divide(i);
+    for (let j = 0; j < i; j++) vector[i] -= factor[i * n + j] * vector[j];
+    vector[i] /= factor[i * n + i];
   }
   for (let i = n - 1; i >= 0; i--) {
-    for (let j = i + 1; j < n; j++) take(i, j, factor[j * n + i]);
-    divide(i);
+    for (let j = i + 1; j < n; j++) vector[i] -= factor[j * n + i] * vector[j];
+    vector[i] /= factor[i * n + i];
   }
+  return vector;
 }
 
-function residual(matrix, weights, wanted, n, outputs) {
-  const rest = wanted.slice();
-  for (let i = 0; i < n; i++) {
-    for (let j = 0; j < n; j++) {
-      const entry = matrix[i * n + j];
-      const [to, from] = [i * outputs, j * outputs];
-      for (let o = 0; o < outputs; o++) rest[to + o] -= entry * weights[from + o];
-    }
-  }
-  return rest;
+function residual(matrix, weights, wanted) {
+  const n = weights.length;
+  return wanted.map((v, i) => {
+    for (let j = 0; j < n; j++) v -= matrix[i * n + j] * weights[j];
+    return v;
+  });
 }
