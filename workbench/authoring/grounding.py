@@ -182,6 +182,15 @@ def keep_feet(
     References
     ----------
     Costa 2018, chapter 6: the lowest foot end effector keeps its place at ground level.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> jump = load_space("cmu/01_01-jump").motion
+    >>> support = find_support(jump)
+    >>> before, after = foot_speeds(jump, support), foot_speeds(keep_feet(jump, support), support)
+    >>> bool(before.max() > 1.0), bool(after.max() < 1e-9)
+    (True, True)
     """
     check_motion(motion)
     points = foot_points(motion, feet)

@@ -46,6 +46,16 @@ def move_marker(scene: Scene, space: PoseSpace, marker: int, to: ArrayLike) -> S
     WorkbenchError
         If there is no such marker, the clip is another one, or the place is no place or
         that of another marker.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> from workbench.authoring import scene_on_circle
+    >>> jump = load_space("cmu/01_01-jump")
+    >>> scene = scene_on_circle(jump, selector="uniform", count=6)
+    >>> moved = move_marker(scene, jump, 2, [0.4, 0.4])
+    >>> moved.embedding[moved.frames[2]].tolist(), scene.positions[2].round(3).tolist()
+    ([0.4, 0.4], [0.933, 0.25])
     """
     chosen = _marker(scene, marker)
     place = _free_place(scene, to, besides=marker)
@@ -228,6 +238,16 @@ def turn_joint(
     ------
     WorkbenchError
         If there is no such marker or joint, or a marker is at that place.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> from workbench.authoring import scene_on_circle
+    >>> jump = load_space("cmu/01_01-jump")
+    >>> scene = scene_on_circle(jump, selector="uniform", count=6)
+    >>> turned = turn_joint(scene, 0, 5, [0.0, 30.0, 0.0], at=[0.5, 0.5])
+    >>> turned.markers[-1].name, turned.markers[-1].frame
+    ('pose 1', None)
     """
     chosen = _marker(scene, marker)
     pose = turned(chosen.rotations, joint, degrees)

@@ -50,6 +50,16 @@ def best_place(
     References
     ----------
     Costa 2018, chapter 6: a marker's place by Alg. 12 from a seed.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> from workbench.authoring import scene_on_circle
+    >>> jump = load_space("cmu/01_01-jump")
+    >>> scene = scene_on_circle(jump, selector="uniform", count=6)
+    >>> place = best_place(scene, jump, jump.samples[20], scene.positions[0])
+    >>> bool(np.linalg.norm(scene.positions - place, axis=1).min() > 0.01)
+    True
     """
     check_clip(scene, space)
     pose = Marker(np.asarray(seed), np.asarray(rotations), np.zeros(3), None, "new pose")

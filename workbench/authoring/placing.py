@@ -82,6 +82,16 @@ def influence(space: PoseSpace, markers: Sequence[Marker]) -> NDArray[np.float64
     ------
     WorkbenchError
         If a marker has a frame or joints that the clip has not.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> from workbench.authoring import scene_on_circle
+    >>> jump = load_space("cmu/01_01-jump")
+    >>> scene = scene_on_circle(jump, selector="uniform", count=6)
+    >>> places = influence(jump, scene.markers) @ scene.positions
+    >>> bool(np.allclose(places, scene.embedding))
+    True
     """
     for marker in markers:
         check_pose(space, marker)
@@ -151,6 +161,16 @@ def refined(
     ------
     WorkbenchError
         If the clip is another one or there is no such optimizer.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> from workbench.authoring import scene_on_circle
+    >>> jump = load_space("cmu/01_01-jump")
+    >>> scene = scene_on_circle(jump, selector="uniform", count=6)
+    >>> result = refined(scene, jump)
+    >>> result.after < result.before
+    True
     """
     check_clip(scene, space)
     free = np.setdiff1d(np.arange(len(space)), scene.frames)
@@ -165,9 +185,8 @@ def refined(
     embedding[free[better]] = found.embedding[free[better]]
     after = np.where(better, found.errors, before)
     n = len(space)
-    return Refinement(
-        scene.laid_out(scene.markers, embedding), before.sum() / n, after.sum() / n, found.reason
-    )
+    moved = scene.laid_out(scene.markers, embedding)
+    return Refinement(moved, float(before.sum() / n), float(after.sum() / n), found.reason)
 
 
 def reconstruction_error(scene: Scene, space: PoseSpace) -> float:

@@ -43,6 +43,16 @@ def play(scene: Scene, space: PoseSpace) -> Motion:
     ------
     WorkbenchError
         If the clip is another one.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> from workbench.authoring import scene_on_circle
+    >>> jump = load_space("cmu/01_01-jump")
+    >>> scene = scene_on_circle(jump, selector="uniform", count=6)
+    >>> motion = play(scene, jump)
+    >>> len(motion) == len(jump), bool(np.allclose(motion.rotations[0], jump.samples[0]))
+    (True, True)
     """
     check_clip(scene, space)
     motion = _as_rebuilt(scene, space)

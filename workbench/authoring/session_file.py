@@ -140,6 +140,16 @@ def session_bytes(scene: Scene, motion: Motion) -> bytes:
     ------
     WorkbenchError
         If the clip has other frames or joints than the scene.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> from workbench.authoring import scene_on_circle
+    >>> jump = load_space("cmu/01_01-jump")
+    >>> scene = scene_on_circle(jump, selector="uniform", count=6)
+    >>> session = session_from_bytes(session_bytes(scene, jump.motion))
+    >>> session.scene.equals(scene), session.check(jump.motion)
+    (True, None)
     """
     check_motion(motion)
     wanted = (scene.n_frames, len(scene.markers[0].rotations))
@@ -225,8 +235,7 @@ def session_from_bytes(content: bytes, name: str = "session") -> Session:
     except WorkbenchError as error:
         raise DataError(f"{name}: holds no valid scene ({error})") from None
     except _DAMAGE as error:
-        reason = f"{type(error).__name__}: {error}"
-        raise DataError(f"{name}: holds no valid scene ({reason})") from None
+        raise DataError(f"{name}: holds no valid scene ({type(error).__name__}: {error})") from None
 
 
 def _scene_to_json(scene: Scene) -> dict[str, Any]:

@@ -64,6 +64,16 @@ def draw(scene: Scene, points: ArrayLike, times: ArrayLike) -> Scene:
     ------
     WorkbenchError
         If less than a frame was drawn, or positions and times are not valid.
+
+    Examples
+    --------
+    >>> from workbench import load_space
+    >>> from workbench.authoring import scene_on_circle
+    >>> jump = load_space("cmu/01_01-jump")
+    >>> scene = scene_on_circle(jump, selector="uniform", count=6)
+    >>> drawn = draw(scene, [[0.1, 0.1], [0.5, 0.9], [0.9, 0.1]], [0.0, 0.5, 1.0])
+    >>> drawn.trajectory.duration, drawn.follows
+    (1.0, False)
     """
     return replace(scene, trajectory=recorded(points, times, scene.frame_time), follows=False)
 
