@@ -8,7 +8,12 @@ from pathlib import Path
 import nbformat
 
 #: Notebooks that are dashboards, in the order of the index.
-DASHBOARDS = ("compare_projections", "explain_optimizer", "inspect_keyframes")
+DASHBOARDS = (
+    "compare_projections",
+    "explain_optimizer",
+    "inspect_keyframes",
+    "author_motion",
+)
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,338 @@
+"""The authoring dashboard at work: what people do, computed and shown."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from workbench.authoring import Scene, Session, edits, read_session, session_from_bytes
+from workbench.dashboards.author_controls import AuthorControls
+from workbench.dashboards.author_edits import BEST, Edited, edited
+from workbench.dashboards.author_files import KINDS, content, file_stem
+from workbench.dashboards.author_jobs import Clip, Job, Methods, Placing, Posing
+from workbench.dashboards.author_session import AuthorSession
+from workbench.dashboards.author_state import AuthorState, Opening
+from workbench.dashboards.author_view import AuthorView
+from workbench.dashboards.background import Background
+from workbench.dashboards.home import Home
+from workbench.dashboards.sources import Source, loaded_here, reread, source_of
+from workbench.dashboards.worker import Worker
+from workbench.errors import WorkbenchError
+
+
+class LiveAuthor:
+    """Turn what a person does into scenes, and scenes into what is shown.
+
+    Parameters
+    ----------
+    controls : AuthorControls
+        What can be chosen.
+    methods : Methods
+        Selectors and projectors.
+
+    Attributes
+    ----------
+    state : AuthorState
+        All scenes, and what is wanted.
+    view : AuthorView
+        What is shown.
+    worker : Worker
+        What computes beside the kernel.
+    refusal : str
+        Why the last edit in the pad was not done; empty if it was.
+    trouble : str
+        Why a session could not be opened.
+    """
+
+    def __init__(self, controls: AuthorControls, methods: Methods) -> None:
+        self.controls = controls
+        self.state = AuthorState()
+        self.view = AuthorView(controls)
+        self.refusal = self.trouble = ""
+        self._methods = methods
+        self._answered = 0
+        self._shown: tuple[Any, ...] = ()
+        self._background = Background(AuthorSession)
+        self.worker: Worker[Job] = Worker(
+            self._background,
+            missing=self.state.missing,
+            failures=self.state.failures,
+            prepare=self._prepared,
+            done=self._take,
+            changed=self._show,
+            report=self._report,
+        )
+        self._connect()
+
+    @property
+    def clip(self) -> Clip:
+        """The clip of what is shown.
+
+        Raises
+        ------
+        WorkbenchError
+            If there is none yet.
+        """
+        if self.state.clip is None:
+            told = "; ".join(self.told()) or "wait until it is loaded"
+            raise WorkbenchError(f"clip: there is none yet: {told}")
+        return self.state.clip
+
+    @property
+    def scene(self) -> Scene:
+        """What is shown.
+
+        Raises
+        ------
+        WorkbenchError
+            If there is nothing yet.
+        """
+        _ = self.clip
+        assert self.state.scene is not None  # there is a clip
+        return self.state.scene
+
+    def told(self) -> list[str]:
+        """Say in words what could not be done, but for edits in the pad."""
+        return [*self.state.told(), *([self.trouble] if self.trouble else [])]
+
+    def do(self, result: Edited) -> None:
+        """Go on with what came of an edit."""
+        self.refusal = self.trouble = ""
+        self.state.do(result.label, result.scene, moved=result.moved)
+        self._wake(result.selected)
+
+    def step(self, back: bool) -> None:
+        """Undo or redo."""
+        self.refusal = self.trouble = ""
+        if self.state.history is not None:
+            self.state.drop_failed()
+            _ = self.state.history.undo() if back else self.state.history.redo()
+        self._wake()
+
+    def follow_clip(self) -> None:
+        """Give up a trajectory that was drawn, deformed or retimed."""
+        self.do(Edited(edits.follow_clip(self.scene), "back to the clip's curve"))
+
+    def keep_feet(self, keep: bool) -> None:
+        """Choose whether the feet are kept from sliding."""
+        label = "keep the feet" if keep else "let the feet slide"
+        self.do(Edited(edits.set_keep_feet(self.scene, keep), label))
+
+    def set_kernel(self, kernel: str, epsilon: float | None = None) -> None:
+        """Choose the radial function between key poses."""
+        scene = edits.set_kernel(self.scene, kernel, epsilon)
+        self.do(Edited(scene, f"radial function {kernel}", moved=True))
+
+    def want_placing(self, source: Source) -> None:
+        """Begin with key poses of a clip as the controls say."""
+        self.trouble = ""
+        self.state.drop_failed()
+        controls = self.controls
+        self.state.wanted = Placing(
+            source,
+            controls.selector.value,
+            controls.count.value,
+            controls.projector.value,
+            controls.seed.value,
+        )
+        self._wake()
+
+    def open_session(self, session: Session, name: str) -> None:
+        """Go on with a session that was saved.
+
+        Raises
+        ------
+        DataError
+            If the clip of that name is in memory and is another one.
+        """
+        self.state.drop_failed()
+        scene, shown = session.scene, self.state.clip
+        label = f"open {name}"
+        # A clip of that name may be in memory only, where nothing else could find it.
+        same = shown is not None and shown.source.name == scene.clip
+        source = shown.source if shown is not None and same else source_of(scene.clip)
+        clip = self.state.clip_of(source)
+        if clip is None:
+            self.state.wanted = Opening(source, scene, session.check, label)
+        else:
+            session.check(clip.space.motion)
+            self.state.do(label, scene, clip=clip, moved=False)
+        self._wake()
+
+    def answer_file(self, want: str) -> None:
+        """Give the person a file."""
+        try:
+            scene = self.scene
+            made = content(want, self.clip, scene, self.view)
+        except Exception as error:  # the person must be told, whatever it is
+            self.view.files.fail(want, _words(error))
+            return
+        ending, kind = KINDS[want]
+        self.view.files.give(want, f"{file_stem(scene.clip)}{ending}", made, kind)
+
+    def recompute(self) -> None:
+        """Compute what failed or was cancelled, or else let the optimizer run again."""
+        self.controls.offer(self._methods.selectors.names(), self._methods.projectors.names())
+        if not self.state.failures:
+            self.state.ask_to_refine()
+        self.state.failures.clear()
+        self._wake()
+
+    def stop(self) -> None:
+        """End the process that computes."""
+        self._background.stop()
+
+    # Computing.
+
+    def _wake(self, selected: int | None = None) -> None:
+        self._show_scene(selected)
+        self.worker.wake()
+
+    def _prepared(self, job: Job) -> tuple[Job, Methods]:
+        return (loaded_here(job) if isinstance(job, Source) else job), self._methods
+
+    def _take(self, job: Job, result: Any) -> None:
+        before = len(self.state.scene.markers) if self.state.scene is not None else 0
+        self.state.take(job, result)
+        selected = before if isinstance(job, Posing) else None
+        self._show_scene(selected)
+
+    def _report(self, text: str, done: float | None) -> None:
+        self.view.progress.show(text, done or 0.0)
+
+    # Showing.
+
+    def _show_scene(self, selected: int | None = None) -> None:
+        """Show the scene in the pad, if anything about it is new."""
+        state = self.state
+        if state.history is None or state.clip is None:
+            return
+        played = state.played
+        now = (state.scene, played, self._answered, self.refusal)
+        if now == self._shown and selected is None:
+            return
+        self._shown = now
+        scene = state.history.scene
+        roots = played.roots if played is not None and scene.keep_feet else None
+        self.view.show(
+            state.clip,
+            state.history,
+            roots=roots,
+            answered=self._answered,
+            selected=selected,
+            message=self.refusal,
+        )
+        self.view.show_feet(scene, played)
+        with self.controls.silence():
+            self.controls.keep_feet.value = scene.keep_feet
+            self.controls.kernel.value = scene.kernel
+            own = edits.follow_clip(scene).trajectory
+            same = scene.follows and own.times.tobytes() == scene.trajectory.times.tobytes()
+            self.controls.follow.disabled = same
+            if state.wanted is None:
+                self.controls.choose(state.clip.source)
+
+    def _show(self) -> None:
+        state = self.state
+        self.view.progress.show_busy(self.worker.current is not None)
+        self.view.show_message(state.clip, state.scene, state.refined, self.told())
+
+    # What a person does.
+
+    def _connect(self) -> None:
+        here, controls, view = Home().here, self.controls, self.view
+        view.pad.observe(here(self._on_edit), "edit")
+        view.files.on_msg(here(self._on_file))
+        view.progress.cancel.on_click(here(lambda _: self.worker.cancel()))
+        view.progress.again.on_click(here(lambda _: self.recompute()))
+        controls.data.observe(here(self._on_clip), "value")
+        controls.open.on_click(here(self._on_open))
+        controls.place.on_click(here(lambda _: self._on_place()))
+        controls.refine.observe(here(self._on_refine), "value")
+        controls.keep_feet.observe(here(self._on_keep_feet), "value")
+        controls.kernel.observe(here(self._on_kernel), "value")
+        controls.follow.on_click(here(lambda _: self._on_follow()))
+        controls.open_session.on_click(here(lambda _: self._on_session()))
+        controls.upload.observe(here(self._on_upload), "value")
+
+    def _on_edit(self, change: Any) -> None:
+        edit = change["new"]
+        self._answered = int(edit.get("number", 0))
+        kind = edit.get("kind")
+        if kind in ("undo", "redo"):
+            self.step(back=kind == "undo")
+            return
+        try:
+            self._edit(edit)
+        except Exception as error:  # the pad waits for an answer, whatever went wrong
+            self.refusal = _words(error)
+            self._wake()
+
+    def _edit(self, edit: dict[str, Any]) -> None:
+        scene, clip = self.scene, self.clip
+        if edit.get("kind") == "turn" and edit.get("place") == BEST:
+            edits.turn_joint(scene, edit["marker"], edit["joint"], edit["angles"])  # refuses it
+            self.refusal = self.trouble = ""
+            self.state.drop_failed()
+            angles = tuple(map(float, edit["angles"]))
+            self.state.wanted = Posing(clip.source, scene, edit["marker"], edit["joint"], angles)
+            self._wake()
+        else:
+            self.do(edited(scene, clip.space, edit))
+
+    def _on_file(self, _: Any, message: dict[str, Any], __: Any) -> None:
+        if message.get("want") in KINDS:
+            self.answer_file(message["want"])
+
+    def _on_clip(self, change: Any) -> None:
+        if change["new"] and not self.controls.quiet:
+            self.want_placing(source_of(change["new"]))
+
+    def _on_open(self, _: Any) -> None:
+        if self.controls.path.value.strip():
+            self.want_placing(source_of(self.controls.path.value))
+
+    def _on_place(self) -> None:
+        wanted, clip = self.state.wanted, self.state.clip
+        if isinstance(wanted, Placing):
+            self.want_placing(reread(wanted.source))
+        elif clip is not None:
+            self.want_placing(reread(clip.source))
+
+    def _on_refine(self, change: Any) -> None:
+        self.state.refines = change["new"]
+        self._wake()
+
+    def _on_keep_feet(self, change: Any) -> None:
+        if not self.controls.quiet and self.state.scene is not None:
+            self.keep_feet(change["new"])
+
+    def _on_kernel(self, change: Any) -> None:
+        if not self.controls.quiet and self.state.scene is not None:
+            self.set_kernel(change["new"])
+
+    def _on_follow(self) -> None:
+        if self.state.scene is not None:
+            self.follow_clip()
+
+    def _on_session(self) -> None:
+        path = self.controls.session.value.strip()
+        if path:
+            self._try_session(lambda: read_session(path), Path(path).name)
+
+    def _on_upload(self, change: Any) -> None:
+        for file in change["new"]:
+            made = bytes(file["content"])
+            self._try_session(lambda: session_from_bytes(made, file["name"]), file["name"])  # noqa: B023 - called at once
+
+    def _try_session(self, read: Callable[[], Session], name: str) -> None:
+        try:
+            self.open_session(read(), name)
+        except WorkbenchError as error:
+            self.trouble = str(error)
+            self._wake()
+
+
+def _words(error: Exception) -> str:
+    return str(error) if isinstance(error, WorkbenchError) else f"{type(error).__name__}: {error}"
