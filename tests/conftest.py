@@ -36,6 +36,31 @@ REGISTRIES = (
     loaders._registered,
 )
 
+#: Files that take longest, those that share a JupyterLab beside each other.
+LONGEST = (
+    "browser/test_compare_journey.py",
+    "browser/test_explain_journey.py",
+    "browser/test_inspect_journey.py",
+    "browser/test_start_page.py",
+    "notebooks/test_lessons.py",
+    "projection/test_projection.py",
+    "cli/test_cli.py",
+    "reproduction/test_reproduce.py",
+    "browser/test_voila.py",
+    "notebooks/test_notebooks.py",
+    "dashboards/test_compare.py",
+    "dashboards/test_inspector.py",
+    "test_schemes.py",
+    "cli/test_compaction.py",
+    "experiments/test_grid_faults.py",
+)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Start the files that take longest first, lest one of them runs alone at the end."""
+    places = {Path(__file__).parent / name: place for place, name in enumerate(LONGEST)}
+    items.sort(key=lambda item: places.get(item.path, len(places)))
+
 
 @pytest.fixture(autouse=True)
 def registrations_end_with_the_test():
