@@ -114,3 +114,14 @@ class SpatialResult(Result):
     def projected_quality(self) -> EmbeddingQuality:
         """Quality of the embedding before it was optimized."""
         return embedding_quality(self.space.distances, self.projected)
+
+    @property
+    def projected_error(self) -> float:
+        """Mean error of all samples before the embedding was optimized.
+
+        Optimizers leave control points where they are, so that only the others had another.
+        """
+        if self.optimization is None:
+            return self.error
+        others = self.optimization.history[0] * len(self.optimization.errors)
+        return float((others + self.errors[self.control_points].sum()) / len(self.errors))

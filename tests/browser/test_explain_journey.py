@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from tests.browser.axe import violations
 from tests.browser.chromium import Visit
 from tests.browser.lab import Lab, choose_data, in_kernel, open_and_run
 
@@ -101,6 +102,7 @@ def test_a_sample_is_picked_followed_and_rebuilt_by_another_method(lab: Lab, vis
     assert swapped["back_projector"] == "knn"
     assert swapped["optimizer"] == "local"
     assert swapped["errors"] != known["errors"]
+    assert violations(page, ".jp-OutputArea-output") == []
     assert page.get_by_text("The browser cannot evaluate this back-projector").is_visible()
 
     in_kernel(

@@ -127,6 +127,19 @@ def test_optimized_panels_know_where_samples_were(iris: ProjectionComparison) ->
     np.testing.assert_allclose(raw[1], iris.results["A"].embedding, atol=1e-6)
 
 
+def test_captions_tell_the_quality_before_the_optimization(iris: ProjectionComparison) -> None:
+    """It is that of the same projector without one, and the caption of where samples were."""
+    plain, optimized = iris.results["A"], iris.results["B"]
+    assert plain.before is None
+    assert optimized.before is not None
+    assert optimized.before.error == pytest.approx(plain.error, abs=1e-9)
+    assert optimized.before.quality.trustworthiness == plain.quality.trustworthiness
+    assert optimized.error < optimized.before.error
+    captions = iris.view.scatter.panels
+    assert captions[1]["raw_detail"] == captions[0]["detail"] != captions[1]["detail"]
+    assert "raw_detail" not in captions[0]
+
+
 @pytest.mark.parametrize("name", ["stress", "trustworthiness", "reconstruction error"])
 def test_colours_stand_for_local_qualities(iris: ProjectionComparison, name: str) -> None:
     """Each panel has its own values, and they go with those that the core measures."""

@@ -19,6 +19,7 @@ def result(stress: float, trustworthiness: float) -> PanelResult:
     return PanelResult(
         embedding=np.zeros((3, 2)),
         projected=None,
+        before=None,
         control_points=np.arange(2),
         errors=np.zeros(3),
         error=0.5,

@@ -118,7 +118,8 @@ def test_a_motion_is_described_with_its_body(waving: Motion) -> None:
     assert body.nodes.parents == [-1, 0, 1, 0, 2, 3]
     assert body.nodes.names[-2:] == ["lower", "other"]
     assert body.positions.shape == (60, 6, 3)
-    bones = np.linalg.norm(body.positions[:, 1:] - body.positions[:, body.nodes.parents[1:]], axis=2)
+    starts = body.positions[:, body.nodes.parents[1:]]
+    bones = np.linalg.norm(body.positions[:, 1:] - starts, axis=2)
     np.testing.assert_allclose(bones, np.broadcast_to([1, 2, 1, 3, 0], bones.shape), atol=1e-5)
 
 

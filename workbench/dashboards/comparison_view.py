@@ -233,12 +233,17 @@ def _panel(state: PanelState) -> dict[str, str]:
         if state.failure:
             return {"title": state.title, "message": state.failure, "state": "failed"}
         return {"title": state.title, "message": "computing …", "state": "busy"}
+    panel = {"title": state.title, "state": "ready"}
     if state.measured is None:
-        detail = state.failure or "measuring …"
-    else:
-        quality, error = state.measured.quality, state.measured.error
-        detail = f"trustworthiness {quality.trustworthiness:.3f} · error {error:.3g}"
-    return {"title": state.title, "detail": detail, "state": "ready"}
+        return panel | {"detail": state.failure or "measuring …"}
+    panel["detail"] = _caption(state.measured)
+    if state.measured.before is not None:
+        panel["raw_detail"] = _caption(state.measured.before)
+    return panel
+
+
+def _caption(measured: PanelResult | Values) -> str:
+    return f"trustworthiness {measured.quality.trustworthiness:.3f} · error {measured.error:.3g}"
 
 
 def _content(summary: Summary) -> str:

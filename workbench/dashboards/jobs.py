@@ -156,6 +156,8 @@ class PanelResult:
         Positions.
     projected : ndarray of shape (n_samples, 2) or None
         Positions before the optimization, None without one.
+    before : Values or None
+        Quality before the optimization, None without one.
     control_points : ndarray of shape (n_control_points,)
         Indices.
     errors : ndarray of shape (n_samples,)
@@ -179,6 +181,7 @@ class PanelResult:
 
     embedding: NDArray[np.float64]
     projected: NDArray[np.float64] | None
+    before: Values | None
     control_points: NDArray[np.intp]
     errors: NDArray[np.float64]
     error: float

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from workbench.dashboards.background import Report
-from workbench.dashboards.jobs import PanelResult, Run
+from workbench.dashboards.jobs import PanelResult, Run, Values
 
 if TYPE_CHECKING:
     from workbench.results import SpatialResult
@@ -53,9 +53,11 @@ def panel_result(
         "neighbourhood preservation": near.preservation,
         "reconstruction error": result.errors,
     }
+    optimized = run.panel.optimized
     return PanelResult(
         embedding=embedding,
-        projected=result.projected if run.panel.optimized else None,
+        projected=result.projected if optimized else None,
+        before=Values(result.projected_quality, result.projected_error) if optimized else None,
         control_points=result.control_points,
         errors=result.errors,
         error=result.error,
