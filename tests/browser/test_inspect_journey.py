@@ -8,6 +8,7 @@ from typing import Any
 
 import pytest
 
+from tests.browser.axe import violations
 from tests.browser.chromium import Visit
 from tests.browser.lab import Lab, in_kernel, open_and_run
 
@@ -42,12 +43,15 @@ def test_choose_a_clip_and_a_count_then_play_and_read_the_keyframes_back(
     page.get_by_label("Clip", exact=True).select_option(label=walk)
     wait_for_keyframes(page, CLIP)
 
-    # ipywidgets makes the slider's handle a slider for the keyboard.
-    sigma = page.locator(".widget-slider", has_text="σ in frames").locator(".noUi-handle")
-    sigma.focus()
+    # ipywidgets makes the slider's handle a slider for the keyboard, and gives it no name.
+    page.get_by_role("slider", name="σ in frames").focus()
     page.keyboard.press("ArrowLeft")
     page.get_by_text("9.5", exact=True).wait_for()
     in_kernel(page, "await inspector.finished()")
+
+    page.get_by_label("handle foot contacts").check()
+    page.get_by_text("curves are feet").wait_for()
+    assert violations(page, ".jp-OutputArea-output") == []
 
     page.locator(".wb-player-counts").scroll_into_view_if_needed()
     page.locator(".wb-player-counts").focus()
@@ -79,13 +83,15 @@ def test_choose_a_clip_and_a_count_then_play_and_read_the_keyframes_back(
     answer = in_kernel(
         page,
         "import json; print(json.dumps([inspector.keyframes.tolist(), len(inspector.errors), "
-        "inspector.psnr, inspector.sigma, inspector.count, inspector.view.player.frame]))",
+        "inspector.psnr, inspector.sigma, inspector.count, inspector.view.player.frame, "
+        "inspector.contacts]))",
     )
-    keyframes, n_errors, psnr, sigma_now, count, frame = json.loads(answer)
+    keyframes, n_errors, psnr, sigma_now, count, frame, contacts = json.loads(answer)
     assert len(keyframes) == count == picked
     assert (keyframes[0], keyframes[-1]) == (0, n_errors - 1)
     assert psnr > 30
     assert sigma_now == 9.5
+    assert contacts is True
     assert str(frame) == bar
 
     # The next keyframe after the one shown, by keyboard.
