@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
+from sklearn.base import BaseEstimator
 
 from workbench import load_space
 from workbench.authoring import (
@@ -146,6 +147,22 @@ def test_a_scene_begins_with_a_projection(jump, projector):
     assert np.array_equal(scene.positions, scene.embedding[scene.frames])
     assert_allclose(scene.trajectory.times, np.arange(50) * jump.motion.frame_time)
     assert scene.follows
+
+
+def test_a_scene_begins_with_an_own_projector(jump):
+    """Any object with ``fit_transform`` will do that gives a plane; space is refused."""
+
+    class Firsts(BaseEstimator):
+        def __init__(self, width=2):
+            self.width = width
+
+        def fit_transform(self, samples, y=None):
+            return samples[:, : self.width]
+
+    scene = scene_from_clip(jump, selector="uniform", count=4, projector=Firsts())
+    assert scene.embedding.shape == (50, 2)
+    with pytest.raises(WorkbenchError, match="gives 3 dimensions"):
+        scene_from_clip(jump, selector="uniform", count=4, projector=Firsts(3))
 
 
 def test_a_scene_begins_on_a_circle(jump):

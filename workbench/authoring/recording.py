@@ -75,10 +75,12 @@ def recorded(
             f"want at least a frame, {step:.3g} s: draw slower or longer"
         )
     hand = Trajectory(*_with_rests(places, seconds))
-    path = hand.frames(step)
-    if hand.duration - path.duration > 1e-6 * step:
-        path = hand.resampled(np.append(path.times, hand.times[-1]))
-    return Trajectory(_smoothed(path.points, smoothing / step), path.times)
+    clock = hand.frames(step).times
+    if hand.duration - clock[-1] > 1e-6 * step:
+        clock = np.append(clock, hand.times[-1])
+    curve = hand.at(clock)
+    curve[-1] = places[-1]  # even if it came a rounding error after the last frame
+    return Trajectory(_smoothed(curve, smoothing / step), clock)
 
 
 def _with_rests(
@@ -98,10 +100,21 @@ def _smoothed(points: NDArray[np.float64], width: float) -> NDArray[np.float64]:
     At frame i the window reaches as far as the nearer end, to both sides alike, so that points
     on an even line are their own means.
     """
-    reach = int(np.ceil(3.0 * width))
+    reach, last = int(np.ceil(3.0 * width)), len(points) - 1
     smooth = points.copy()
-    for i in range(1, len(points) - 1):
-        half = min(reach, i, len(points) - 1 - i)
-        weights = np.exp(-0.5 * (np.arange(-half, half + 1) / width) ** 2) if width > 0 else None
-        smooth[i] = np.average(points[i - half : i + half + 1], axis=0, weights=weights)
+    for half in range(1, min(reach, last // 2 + 1)):
+        weights = _gaussian(half, width)
+        smooth[half] = weights @ points[: 2 * half + 1]
+        smooth[last - half] = weights @ points[last - 2 * half :]
+    if 0 < 2 * reach <= last:
+        weights = _gaussian(reach, width)
+        inside = [np.convolve(axis, weights, mode="valid") for axis in points.T]
+        smooth[reach : last - reach + 1] = np.stack(inside, axis=1)
     return smooth
+
+
+def _gaussian(half: int, width: float) -> NDArray[np.float64]:
+    """Give weights from −half to half that add up to 1."""
+    weights = np.exp(-0.5 * (np.arange(-half, half + 1) / width) ** 2)
+    normalized: NDArray[np.float64] = weights / weights.sum()
+    return normalized

@@ -61,7 +61,11 @@ def scene_from_clip(
     (8, (300, 2))
     """
     frames = _marker_frames(space, selector, count, random_state)
-    embedding = project(space, projector, dimensions=2, random_state=random_state)
+    embedding = project(space, projector, random_state=random_state)
+    if embedding.shape[1] != 2:
+        raise WorkbenchError(
+            f"projector: gives {embedding.shape[1]} dimensions, want 2: markers lie on a plane"
+        )
     return _begun(space, clip, frames, embedding[frames], embedding)
 
 
