@@ -130,6 +130,7 @@ class AuthoringPad(anywidget.AnyWidget):
         "authoring_time",
         "authoring_tools",
         "authoring_input",
+        "authoring_words",
         "authoring_clock",
         "authoring_glide",
         "authoring",

@@ -19,14 +19,11 @@ class AuthoringPad extends PadClock {
     this.clock = new PadTime(this, signal);
     this.glide = new PadGlide(this);
     this.hands = { scrub: new ScrubHand(this), markers: new MarkerHand(this), deform: new DeformHand(this), draw: new DrawHand(this) };
-    this.readout = element("span", { class: "wb-detail" });
-    this.message = element("div", { class: "wb-pad-message", role: "status" });
-    this.live = element("div", { class: "wb-live", role: "status", "aria-live": "polite" });
-    this.hint = element("p", { class: "wb-hint", id: hintId });
-    const under = element("div", { class: "wb-bar wb-pad-under" }, [this.readout, this.tools.radius]);
+    this.words = new PadWords(this, hintId);
+    const under = element("div", { class: "wb-bar wb-pad-under" }, [this.words.readout, this.tools.radius]);
     const left = element("div", { class: "wb-pad-left" }, [this.plane.plot, under]);
     const views = element("div", { class: "wb-pad-views" }, [left, this.pose.node]);
-    root.append(this.tools.node, views, this.message, this.clock.node, this.hint, this.live);
+    root.append(this.tools.node, views, this.words.message, this.clock.node, this.words.hint, this.words.live);
     this.input = new PadInput(this, signal);
     this.arrive();
     onTraits(model, SCENE_TRAITS, () => this.arrive(), signal);
@@ -52,6 +49,8 @@ class AuthoringPad extends PadClock {
   arrive() {
     const answered = this.model.get("answered") >= this.pending;
     if (answered) clearTimeout(this.patience);
+    if (answered && this.late) this.words.say("");
+    this.late &&= !answered;
     this.waiting = this.holding || !answered;
     if (!this.waiting) this.read();
   }
@@ -71,6 +70,7 @@ class AuthoringPad extends PadClock {
     this.time = Math.max(scene.start, Math.min(scene.start + scene.duration, this.time));
     if (this.atTime) this.place = scene.placeAt(this.time);
     if (newBody) this.pose.read(scene, this.model);
+    else scene.lastGood = before.lastGood;
     this.selected = Math.min(this.model.get("selected"), scene.count - 1);
     this.plane.resize();
     if (!this.plane.view || newBody || !this.plane.holds(scene)) this.plane.fit(scene);
@@ -83,9 +83,11 @@ class AuthoringPad extends PadClock {
     const number = Math.max(this.pending, this.model.get("answered"), this.model.get("edit").number ?? 0) + 1;
     this.pending = number;
     this.save("edit", { number, kind, ...details });
-    this.remark = "";
     clearTimeout(this.patience);
-    this.patience = setTimeout(() => this.say("Python has not answered yet: it is busy or has stopped. What you see is kept until it does.", true), ANSWER_WITHIN);
+    this.patience = setTimeout(() => {
+      this.late = true;
+      this.words.say("Python has not answered yet: it is busy or has stopped. What you see is kept until it does.", true);
+    }, ANSWER_WITHIN);
   }
 
   save(name, value) {
@@ -108,7 +110,9 @@ class AuthoringPad extends PadClock {
   /** Let go; with `putBack` everything is as Python has it, else as the hand has left it. */
   letGo(putBack = false) {
     this.holding = false;
-    if (putBack) this.arrive();
+    if (putBack) return this.arrive();
+    this.clock.read(this.scene);
+    this.redraw();
   }
 
   // What a person asks for.
@@ -150,13 +154,13 @@ class AuthoringPad extends PadClock {
     const at = frame >= 0 ? [scene.embedding[2 * frame], scene.embedding[2 * frame + 1]] : [...place];
     const pose = scene.poseAt(at);
     const taken = frame >= 0 ? scene.markerFrames.includes(frame) : plane.nearestMarker(scene, plane.toPixel(at), 1) >= 0;
-    if (taken || !pose) return this.say(pose ? "There is a marker already: look at another place first." : scene.problem, true);
+    if (taken || !pose) return this.words.say(pose ? "There is a marker already: look at another place first." : scene.problem, true);
     const [rotations, root] = [[...pose.rotations], [...pose.root]];
     scene.addMarker(at, frame >= 0 ? frame : null, rotations, root);
     this.selected = scene.count - 1;
     this.look(at);
     this.showSelected();
-    this.say("marker added");
+    this.words.say("marker added");
     this.tell("add", { at, frame: frame >= 0 ? frame : null, rotations, root });
   }
 
@@ -164,8 +168,8 @@ class AuthoringPad extends PadClock {
     this.glide.stop();
     const { scene, selected } = this;
     if (!scene || selected < 0 || this.holding) return;
-    if (scene.count <= FEWEST_MARKERS) return this.say(`At least ${FEWEST_MARKERS} markers must stay.`, true);
-    this.say(`${scene.nameOf(selected)} deleted`);
+    if (scene.count <= FEWEST_MARKERS) return this.words.say(`At least ${FEWEST_MARKERS} markers must stay.`, true);
+    this.words.say(`${scene.nameOf(selected)} deleted`);
     scene.removeMarker(selected);
     this.selected = -1;
     this.showSelected();
@@ -220,9 +224,6 @@ class AuthoringPad extends PadClock {
   // Pictures.
 
   showControls() {
-    const { model } = this;
-    const { hand } = this;
-    this.hint.textContent = `${hand.hint} ${PAD_HINT}`;
     this.plane.plot.dataset.mode = this.mode;
     this.clock.showControls();
     this.redraw();
@@ -236,32 +237,22 @@ class AuthoringPad extends PadClock {
     plot.style.height = `${Math.round(Math.min(PAD_TALL[1], Math.max(PAD_TALL[0], 0.8 * plot.clientWidth)))}px`;
     this.plane.resize();
     this.pose.resize();
-    this.showMessage();
+    this.words.describe();
     if (!this.scene) return;
-    plot.setAttribute("aria-label", this.describe());
     this.drawBase();
     this.drawMoving();
     this.clock.redraw();
   }
 
-  describe() {
-    const { scene } = this;
-    return `Plane with ${scene.count} markers and a trajectory of ${scene.duration.toFixed(1)} seconds, mode ${PAD_MODES[this.mode][0]}`;
-  }
-
   drawBase() {
     if (this.scene && this.plane.width) this.plane.drawBase(this.scene, this);
-    if (this.holding && this.scene) this.showProblem();
   }
 
   /** What follows the mouse and the clock: the marks on the plane and the pose. */
   drawMoving() {
     this.drawTop();
     this.pose.draw();
-    this.showProblem();
-    const [x, y] = this.place;
-    const marker = this.hovered >= 0 ? `${this.scene.nameOf(this.hovered)} · ` : "";
-    this.readout.textContent = `${marker}${this.atTime ? `time ${(this.time - this.scene.start).toFixed(2)} s` : "place"} · ${brief(x)}, ${brief(y)}`;
+    this.words.locate();
   }
 
   /** Show what the time is, here and on the bar. */
@@ -286,24 +277,6 @@ class AuthoringPad extends PadClock {
   showTime() {
     this.clock.curve.drawLayer();
     this.seek(this.time);
-  }
-
-  say(text, seen = false) {
-    this.live.textContent = text;
-    if (!seen) return;
-    this.remark = text;
-    this.showMessage();
-  }
-
-  showProblem() {
-    if (this.scene.problem !== this.problem) this.showMessage();
-  }
-
-  showMessage() {
-    this.problem = this.scene?.problem ?? "";
-    const waiting = this.scene ? "" : "No motion yet.";
-    const text = [this.problem, this.remark, this.model.get("message"), waiting].filter(Boolean).join(" ");
-    if (this.message.textContent !== text) this.message.textContent = text;
   }
 }
 

@@ -43,7 +43,7 @@ class MarkerHand extends Hand {
     this.held = true;
     this.pad.hold();
     Object.assign(this, { marker, from: this.scene.marker(marker), shifts: this.scene.shifts(), since: performance.now() });
-    this.pad.say(`${this.scene.nameOf(marker)}, picked up`);
+    this.pad.words.say(`${this.scene.nameOf(marker)}, picked up`);
   }
 
   put(place) {
@@ -62,7 +62,7 @@ class MarkerHand extends Hand {
     this.scene.moveMarker(marker, to, this.shifts, 1);
     this.to = null;
     this.pad.letGo();
-    this.pad.say(`${this.scene.nameOf(marker)}, dropped`);
+    this.pad.words.say(`${this.scene.nameOf(marker)}, dropped`);
     this.pad.tell("move", { marker, to });
   }
 
@@ -80,7 +80,7 @@ class MarkerHand extends Hand {
       pad.select((pad.selected + (pad.selected < 0 && way < 0 ? 0 : way) + scene.count) % scene.count);
       if (pad.plane.reveal(scene.marker(pad.selected))) pad.drawBase();
       pad.look(scene.marker(pad.selected));
-      pad.say(scene.nameOf(pad.selected));
+      pad.words.say(scene.nameOf(pad.selected));
     } else return false;
     return true;
   }
@@ -160,7 +160,7 @@ class DeformHand extends Hand {
     this.held = false;
     if (to[0] === from[0] && to[1] === from[1]) return pad.letGo(true);
     pad.letGo();
-    pad.say("trajectory deformed");
+    pad.words.say("trajectory deformed");
     pad.model.set("radius", pad.radius); // goes with the edit
     pad.tell("deform", { index, to, radius: pad.radius });
   }

@@ -113,12 +113,12 @@ class DrawHand extends Hand {
     this.held = false;
     if (times.length < 2 || times.at(-1) < 2 * this.scene.frameTime) {
       pad.letGo(true);
-      return pad.say("Too short to be a trajectory: press, draw and then let go.", true);
+      return pad.words.say("Too short to be a trajectory: press, draw and then let go.", true);
     }
     this.scene.draw(Float64Array.from(points), Float64Array.from(times));
     pad.letGo();
     pad.seek(0);
-    pad.say(`trajectory drawn, ${times.at(-1).toFixed(1)} seconds`);
+    pad.words.say(`trajectory drawn, ${times.at(-1).toFixed(1)} seconds`);
     pad.tell("draw", { points: times.map((_, i) => [points[2 * i], points[2 * i + 1]]), times });
   }
 

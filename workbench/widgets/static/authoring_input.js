@@ -30,7 +30,7 @@ class PadInput {
   press(event) {
     const { pad } = this;
     if (!pad.scene || this.pressed) return;
-    pad.remark = "";
+    pad.words.say("");
     pad.plane.plot.setPointerCapture(event.pointerId);
     const pans = event.button === 1 || event.shiftKey;
     if (event.button > 1 || (event.button === 1 && !pans)) return;
@@ -70,7 +70,7 @@ class PadInput {
     if (pad.clock.curve.held) pad.clock.curve.abandon();
     else if (pad.hand.held) {
       pad.hand.abandon();
-      pad.say("put back");
+      pad.words.say("put back");
     } else pad.pose.abandon();
   }
 

@@ -4,6 +4,7 @@
 const PAD_TALL = [260, 460];
 const MARKER_RADIUS = 6.5;
 const CHEVRON = 5;
+const SHORTEST_STEP = 1.2; // pixels
 const TICKS = 7; // seconds that are written beside a trajectory, about
 
 class PadPlane extends PlaneView {
@@ -39,18 +40,25 @@ class PadPlane extends PlaneView {
     if (selected >= 0 && selected < scene.count) this.drawMarker(context, scene, selected, theme, true);
   }
 
+  /** Take a curve into the path, without steps too short to be seen. */
   trace(context, points, from = 0, to = points.length / 2 - 1) {
+    const { scale, view, width, height } = this;
     context.beginPath();
+    let [lastX, lastY] = [NaN, NaN];
     for (let i = from; i <= to; i++) {
-      const [x, y] = this.toPixel([points[2 * i], points[2 * i + 1]]);
+      const x = width / 2 + (points[2 * i] - view.x) * scale;
+      const y = height / 2 - (points[2 * i + 1] - view.y) * scale;
+      if (i < to && Math.abs(x - lastX) + Math.abs(y - lastY) < SHORTEST_STEP) continue;
       if (i === from) context.moveTo(x, y);
       else context.lineTo(x, y);
+      [lastX, lastY] = [x, y];
     }
   }
 
   /** Draw the trajectory in as many strokes as there are colours. */
   drawCurve(context, { points, times, start, duration }) {
     context.lineWidth = 2.6;
+    context.lineJoin = "bevel"; // steps are short, and round joins take twice the time
     const stepOf = (i) => Math.min(STEPS - 1, Math.floor(((times[i] - start) / duration) * STEPS));
     let first = 0;
     for (let i = 1; i < times.length; i++) {
@@ -187,9 +195,9 @@ class PadPlane extends PlaneView {
         context.moveTo(...this.toPixel([points[2 * i - 2], points[2 * i - 1]]));
         context.lineTo(...this.toPixel([points[2 * i], points[2 * i + 1]]));
       }
-      context.globalAlpha = 0.35;
+      context.globalAlpha = 0.14;
       context.strokeStyle = theme.brand;
-      context.lineWidth = 4 + 2 * level;
+      context.lineWidth = 6 + 3 * level;
       context.stroke();
     });
     context.globalAlpha = 1;

@@ -5,9 +5,9 @@ const POSE_TALL = [260, 460];
 const JOINT_REACH = 14; // pixels from a joint within which a click picks it
 const AXES = ["x", "y", "z"];
 const PLACES_OF_TURNED = [
-  ["", "this marker"],
-  ["here", "a new marker here"],
-  ["best", "a new marker at the best place"],
+  ["", "changes this marker"],
+  ["here", "makes a new marker here"],
+  ["best", "makes one at the best place"],
 ];
 
 class PadPose {
@@ -45,7 +45,7 @@ class PadPose {
     this.places.title = "A new marker goes to the place that was looked at, or to where the optimizer puts it";
     this.title = element("span", { class: "wb-title" });
     this.turning = element("div", { class: "wb-pad-turning", hidden: "" }, [
-      element("div", { class: "wb-bar" }, [this.title, this.joints, element("span", { text: "of" }), this.places]),
+      element("div", { class: "wb-bar" }, [this.title, this.joints, this.places]),
       element("div", { class: "wb-pad-turns" }, this.turns.map(({ node }) => node)),
     ]);
   }
@@ -153,7 +153,7 @@ class PadPose {
     const none = pad.selected < 0;
     this.turning.hidden = !editable;
     this.turning.classList.toggle("wb-pad-idle", none);
-    this.title.textContent = none ? "Select a marker to turn" : `${pad.scene.nameOf(pad.selected)}: turn`;
+    this.title.textContent = none ? "No marker selected" : `Turn ${pad.scene.nameOf(pad.selected)}:`;
     this.joints.disabled = this.places.disabled = none;
     for (const { slider, field } of this.turns) slider.disabled = field.disabled = none || this.joint < 0;
   }
@@ -181,9 +181,20 @@ class PadPose {
     const figures = [p];
     const original = pad.model.get("show_ghost") ? pad.ghost() : null;
     if (original) figures.unshift(this.beside(original, p));
+    this.describe(original !== null);
     this.see = this.stage.camera(figures[0], width / 2, width, this.height);
     this.stage.play(context, figures, width, this.height, this.colours, true);
     if (!this.joints.disabled && this.joint >= 0) this.drawRing(context);
+  }
+
+  /** Say what is shown; to a screen reader only while nothing plays. */
+  describe(withGhost) {
+    const { pad } = this;
+    const { scene, selected, hovered } = pad;
+    const marker = hovered >= 0 ? hovered : this.start ? selected : -1;
+    const what = pad.atTime ? `pose at ${(pad.time - scene.start).toFixed(2)} s` : marker >= 0 ? `pose of ${scene.nameOf(marker)}` : "pose at the place looked at";
+    this.caption.textContent = withGhost ? `${what} · original in grey` : what;
+    if (!pad.playing) this.canvas.setAttribute("aria-label", `Stick figure, ${this.caption.textContent}. ${ORBIT_HINT}`);
   }
 
   /** The original where the figure stands, because poses are compared and not ways. */

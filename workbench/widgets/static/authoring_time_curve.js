@@ -113,7 +113,7 @@ class TimeCurve {
     const same = to === null || to === before[this.handles[handle]];
     pad.letGo(same);
     if (!same) {
-      pad.say("timing changed");
+      pad.words.say("timing changed");
       pad.tell("retime", { times: [...pad.scene.times] });
     }
   }
@@ -138,7 +138,7 @@ class TimeCurve {
       pad.scrub(pad.scene.times[this.handles[this.handle]], true);
     } else return false;
     const i = this.handles[this.handle];
-    pad.say(`handle ${this.handle + 1} of ${this.handles.length}, ${Math.round(100 * this.along[i])} percent at ${(pad.scene.times[i] - pad.scene.start).toFixed(2)} seconds`);
+    pad.words.say(`handle ${this.handle + 1} of ${this.handles.length}, ${Math.round(100 * this.along[i])} percent at ${(pad.scene.times[i] - pad.scene.start).toFixed(2)} seconds`);
     this.redraw();
     return true;
   }

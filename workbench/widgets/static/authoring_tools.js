@@ -35,7 +35,7 @@ class PadTools {
     this.slider.addEventListener("input", () => pad.setRadius(radiusAt(pad.scene, Number(this.slider.value) / 100)), { signal });
     this.slider.addEventListener("change", () => pad.save("radius", pad.radius), { signal });
     this.amount = element("span", { class: "wb-pad-amount" });
-    this.radius = element("label", { class: "wb-pad-radius", hidden: "" }, [element("span", { text: "felt up to" }), this.slider, this.amount]);
+    this.radius = element("label", { class: "wb-pad-radius", hidden: "" }, [element("span", { text: "felt for" }), this.slider, this.amount]);
   }
 
   button(text, label, act) {
@@ -61,6 +61,6 @@ class PadTools {
     this.radius.hidden = !editable || pad.mode !== "deform" || !scene;
     if (this.radius.hidden) return;
     this.slider.value = String(Math.round(100 * partOfRadius(scene, pad.radius)));
-    this.amount.textContent = `${brief(pad.radius)} along it`;
+    this.amount.textContent = `${brief(100 * pad.radius / longestRadius(scene))} % of its length`;
   }
 }
