@@ -74,6 +74,8 @@ def test_a_figure_is_saved_with_its_ratios(made, tmp_path):
     outputs = Outputs(tmp_path, profile="quick", seed=0)
     drawn = motion_figures.save_figure(outputs, JUMP.item, "quick", *made)
     assert drawn is not None
+    # 300 frames at 120 a second.
+    assert drawn.layout.coloraxis.colorbar.ticktext == ("0 s", "1.2 s", "2.5 s")
     kinds = sorted(json.loads(path.read_text())["kind"] for path in tmp_path.glob("parts/*.json"))
     assert kinds == ["figure", "table"]
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, cast
 
 import pandas as pd
 import plotly.graph_objects as go
 
+from workbench.datasets import load_space
 from workbench.datasets.catalogue import lookup
 from workbench.errors import WorkbenchError
 from workbench.experiments.runs.base import Run
@@ -22,6 +23,7 @@ from workbench.reproduction.outputs import Outputs
 from workbench.reproduction.profiles import excerpts, motion_clips
 from workbench.reproduction.published import published
 from workbench.schemes import SpatialScheme
+from workbench.spaces import PoseSpace
 
 
 @dataclass(frozen=True)
@@ -128,6 +130,8 @@ class MadeFigure:
         After optimization over before.
     n_frames, n_keys : int
         How many frames, and how many of them are keyframes.
+    seconds : float
+        How long the clip lasts.
     """
 
     figure: MotionFigure
@@ -138,6 +142,7 @@ class MadeFigure:
     error_ratio: float
     n_frames: int
     n_keys: int
+    seconds: float
 
 
 def make_figure(
@@ -186,7 +191,14 @@ def make_figure(
         error_ratio=float(optimized["error"] / raw["error"]),
         n_frames=int(optimized["n_samples"]),
         n_keys=len(keys),
+        seconds=_seconds(clip),
     )
+
+
+def _seconds(clip: str) -> float:
+    # All figures are of motions; a table has no time.
+    motion = cast(PoseSpace, load_space(clip)).motion
+    return float((len(motion) - 1) * motion.frame_time)
 
 
 def _row(table: pd.DataFrame, clip: str, scheme: SpatialScheme) -> dict[Hashable, Any]:
@@ -227,7 +239,7 @@ def save_figure(
     if isinstance(made, str):
         outputs.not_made(item, made)
         return None
-    drawn = trajectory_panels(made.panels, crosses=True)
+    drawn = trajectory_panels(made.panels, crosses=True, seconds=made.seconds)
     outputs.figure(item, drawn, caption=caption(made), alt=alt(made))
     outputs.table(
         item,
