@@ -51,9 +51,7 @@ def watch(page: StudyParticipation) -> None:
 
 def give(page: StudyParticipation, *ratings: int) -> None:
     """Rate what is on the screen from left to right, as the browser does."""
-    for place, rating in enumerate(ratings):
-        given = page.form.choice[0] + 1 if page.form.choice else 1
-        page.form.choice = [given, place, rating]
+    page.form.chosen = [*ratings, *page.form.stored[len(ratings) :]]
 
 
 def finish(page: StudyParticipation) -> None:

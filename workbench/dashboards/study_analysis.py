@@ -151,5 +151,8 @@ def _about(answers: pd.DataFrame) -> str:
         f"{len(answers)} ratings by {n_people} {'participant' if n_people == 1 else 'participants'}"
     )
     table = base64.b64encode(answers.to_csv(index=False, lineterminator="\n").encode()).decode()
-    link = f'<a download="answers.csv" href="data:text/csv;base64,{table}">Download all as CSV</a>'
+    link = (
+        '<a style="color: var(--jp-content-link-color, #1565c0); text-decoration: underline" '
+        f'download="answers.csv" href="data:text/csv;base64,{table}">Download all as CSV</a>'
+    )
     return f'<div role="status" style="line-height: 1.4">{escape(words)}. {link}</div>'

@@ -11,7 +11,7 @@ from typing import Any
 import ipywidgets as widgets
 
 from workbench.dashboards.home import Home
-from workbench.dashboards.layout import FITTING, alert, control_row
+from workbench.dashboards.layout import FITTING, alert, control_row, view_row
 from workbench.dashboards.study_files import known_studies, study_of_address, study_path
 from workbench.dashboards.study_pages import thanks_text, welcome_text
 from workbench.errors import DataError, WorkbenchError
@@ -80,15 +80,15 @@ class StudyParticipation:
         self.run: StudyRun | None = None
         self.index: int | None = None
         self.failure = ""
-        self.form = RatingForm()
+        self.form = RatingForm(layout=widgets.Layout(flex="1 1 450px", max_width="500px"))
         self.player = MotionPlayer()
         self.memory = TabMemory()
         self._path: Path | None = None
-        self._practised: list[int] = []
         self._here = Home().here
         self._message = widgets.HTML()
         self._body = widgets.VBox([])
         self.begin = _button("Begin", "Take part as a new participant")
+        self.begin.button_style = "primary"
         self.code = widgets.Text(
             description="Your code",
             placeholder="such as 12-KFM",
@@ -155,8 +155,7 @@ class StudyParticipation:
         self.memory.word = run.code
         self._tell("")
         if run.design.practice and not run.has_begun:
-            self._practised = [0] * len(run.design.practice)
-            self._show(-1, run.design.practice, self._practised)
+            self._show(-1, run.design.practice, [0] * len(run.design.practice))
             return
         self._continue()
 
@@ -180,19 +179,20 @@ class StudyParticipation:
         self.player = MotionPlayer(
             **motion_traits(motions), description=f"{name}, motions side by side", autoplay=True
         )
-        self.player.layout = widgets.Layout(width="100%", min_width="0")
+        self.player.layout = widgets.Layout(flex="3 1 440px", min_width="0")
         self.player.observe(self._here(self._on_end), "ends")
         with self.form.hold_sync():
-            self.form.heading = f"{name}. You take part as {self.run.code}."
+            self.form.heading = name
+            self.form.note = f"Your code is {self.run.code}. With it you can go on later."
             self.form.question = self.run.design.question + (
                 " This one is an exercise: nothing of it is stored." if index < 0 else ""
             )
-            self.form.letters, self.form.stored = letters, ratings
+            self.form.letters, self.form.stored, self.form.chosen = letters, ratings, ratings
             self.form.onward, self.form.waiting = onward, _WATCH_FIRST
             # Who has rated something has seen it.
             self.form.ready = any(ratings)
             self.form.message = ""
-        self._body.children = [self.player, self.form]
+        self._body.children = [view_row([self.player, self.form])]
         before.close()
 
     def _tell(self, words: str) -> None:
@@ -206,7 +206,7 @@ class StudyParticipation:
         self.go_on.on_click(here(lambda _: self._try(self._on_go_on)))
         self.next_person.on_click(here(lambda _: self._try(self._on_next_person)))
         self.memory.observe(here(lambda _: self._try(self._on_recalled)), "recalled")
-        self.form.observe(here(self._on_choice), "choice")
+        self.form.observe(here(self._on_chosen), "chosen")
         self.form.observe(here(lambda _: self._try(self._on_finished)), "finished")
 
     def _on_begin(self) -> None:
@@ -242,23 +242,26 @@ class StudyParticipation:
         if change["new"] > 0:
             self.form.ready = True
 
-    def _on_choice(self, change: Any) -> None:
-        if self.index is None or len(change["new"]) != 3:
+    def _on_chosen(self, change: Any) -> None:
+        if self.index is None or change["new"] == self.form.stored:
             return
-        _, place, rating = change["new"]
-        self._try(lambda: self._store(place, rating))
+        self._try(lambda: self._store(change["new"]))
+        # What could not be stored is no longer chosen, so that it can be chosen again.
+        self.form.chosen = self.form.stored
 
-    def _store(self, place: int, rating: int) -> None:
+    def _store(self, chosen: Sequence[int]) -> None:
         assert self.run is not None  # the form is shown to participants only
         assert self.index is not None
         if not self.form.ready:
             raise _Asked(_WATCH_FIRST)
-        if self.index >= 0:
-            self.run.rate(self.index, place, rating)
-            self.form.stored = self.run.ratings(self.index)
-        else:
-            self._practised = [*self._practised[:place], rating, *self._practised[place + 1 :]]
-            self.form.stored = self._practised
+        for place, rating in enumerate(chosen):
+            if rating in (0, self.form.stored[place]):
+                continue
+            if self.index >= 0:
+                self.run.rate(self.index, place, rating)
+            stored = list(self.form.stored)
+            stored[place] = rating
+            self.form.stored = stored
 
     def _on_finished(self) -> None:
         if self.run is None or self.index is None:

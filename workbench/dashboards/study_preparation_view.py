@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
-from urllib.parse import quote
+from urllib.parse import parse_qs, quote
 
 import ipywidgets as widgets
 
@@ -20,6 +20,9 @@ from workbench.study.answers import Stimulus
 from workbench.study.design import StudyDesign
 from workbench.study.stimuli import stimulus_motion
 from workbench.widgets.player import MotionPlayer, motion_traits
+
+#: Pages of notebooks give links no colour of their own.
+_LINK = "color: var(--jp-content-link-color, #1565c0); text-decoration: underline"
 
 
 class PreparationView:
@@ -99,10 +102,9 @@ class PreparationView:
         """Say where the study is and how participants get there."""
         words = f"The study is in <b>{escape(str(path))}</b>. "
         if os.environ.get("SERVER_SOFTWARE", "").startswith("voila"):
-            address = f"take_part.ipynb?study={quote(str(path))}"
-            words += (
-                f'<a href="{escape(address)}" target="_blank">Open the participants\' page</a>.'
-            )
+            address = f"take_part.ipynb?study={quote(str(path))}{_theme()}"
+            link = f'<a href="{escape(address)}" target="_blank" style="{_LINK}">'
+            words += f"{link}Open the participants' page</a>."
         else:
             words += "Participants open the notebook <b>take_part.ipynb</b>."
         self.saved.value = f'<div role="status" style="line-height: 1.4">{words}</div>'
@@ -135,3 +137,9 @@ def _about(design: StudyDesign) -> str:
         f"each {block} participants."
     )
     return f'<div style="line-height: 1.4">{escape(words)}</div>'
+
+
+def _theme() -> str:
+    """Hand the theme of this page on, as its address tells it."""
+    theme = parse_qs(os.environ.get("QUERY_STRING", "")).get("theme", [""])[0]
+    return f"&theme={quote(theme)}" if theme else ""

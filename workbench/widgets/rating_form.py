@@ -18,6 +18,8 @@ class RatingForm(anywidget.AnyWidget):
     ----------
     heading : str
         Where in the study this is; the focus goes there when it changes.
+    note : str
+        What else to know, in small letters.
     question : str
         What is asked.
     letters : list of str
@@ -32,8 +34,9 @@ class RatingForm(anywidget.AnyWidget):
         What the button says that goes on.
     message : str
         What went wrong.
-    choice : list of int
-        From the page: how many ratings were given so far, which thing, which rating.
+    chosen : list of int
+        From the page: for each, the rating that was chosen; 0 for none. All of them, because
+        choices that follow each other fast reach Python as one. Python sets it with ``stored``.
     finished : int
         From the page: how often the button was pressed.
     """
@@ -42,6 +45,7 @@ class RatingForm(anywidget.AnyWidget):
     _css = style_sheet()
 
     heading = traitlets.Unicode("").tag(sync=True)
+    note = traitlets.Unicode("").tag(sync=True)
     question = traitlets.Unicode("").tag(sync=True)
     letters = traitlets.List(traitlets.Unicode()).tag(sync=True)
     stored = traitlets.List(traitlets.Int()).tag(sync=True)
@@ -49,5 +53,5 @@ class RatingForm(anywidget.AnyWidget):
     waiting = traitlets.Unicode("").tag(sync=True)
     onward = traitlets.Unicode("Next").tag(sync=True)
     message = traitlets.Unicode("").tag(sync=True)
-    choice = traitlets.List(traitlets.Int()).tag(sync=True)
+    chosen = traitlets.List(traitlets.Int()).tag(sync=True)
     finished = traitlets.Int(0).tag(sync=True)

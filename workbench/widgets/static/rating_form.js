@@ -10,8 +10,9 @@ let ratingForms = 0;
 
 class RatingForm {
   constructor(model, root, signal) {
-    Object.assign(this, { model, root, signal, chosen: [], given: 0, id: `wb-rating-${++ratingForms}-${Math.random().toString(36).slice(2)}` });
+    Object.assign(this, { model, root, signal, chosen: [], id: `wb-rating-${++ratingForms}-${Math.random().toString(36).slice(2)}` });
     this.heading = element("h3", { class: "wb-rating-heading", tabindex: "-1" });
+    this.note = element("p", { class: "wb-detail" });
     this.question = element("p", { class: "wb-rating-question", id: `${this.id}-question` });
     this.waiting = element("p", { class: "wb-rating-waiting", role: "status" });
     this.groups = element("div", { class: "wb-rating-groups" });
@@ -19,10 +20,10 @@ class RatingForm {
     this.onward = element("button", { type: "button", class: "wb-rating-onward" });
     this.left = element("span", { class: "wb-detail", role: "status" });
     const end = element("div", { class: "wb-bar" }, [this.onward, this.left]);
-    root.append(this.heading, this.waiting, this.question, this.groups, this.message, end, element("p", { class: "wb-hint", text: RATING_HINT }));
+    root.append(this.heading, this.question, this.waiting, this.groups, this.message, end, this.note, element("p", { class: "wb-hint", text: RATING_HINT }));
     this.onward.addEventListener("click", () => this.goOn(), { signal });
     root.addEventListener("keydown", (event) => this.key(event), { signal });
-    onTraits(model, ["letters", "heading", "question", "onward"], () => this.read(true), signal);
+    onTraits(model, ["letters", "heading", "note", "question", "onward"], () => this.read(true), signal);
     onTraits(model, ["stored", "ready", "waiting"], () => this.show(), signal);
     onTraits(model, ["message"], () => this.refuse(), signal);
     signal.addEventListener("abort", () => clearTimeout(this.late));
@@ -33,6 +34,7 @@ class RatingForm {
   read(moved) {
     const { model } = this;
     this.heading.textContent = model.get("heading");
+    this.note.textContent = model.get("note");
     this.question.textContent = model.get("question");
     this.onward.textContent = model.get("onward");
     this.going = false;
@@ -55,8 +57,7 @@ class RatingForm {
 
   choose(i, rating) {
     this.chosen[i] = rating;
-    this.given += 1;
-    this.model.set("choice", [this.given, i, rating]);
+    this.model.set("chosen", [...this.chosen]);
     this.model.save_changes();
     this.show();
   }
@@ -101,7 +102,9 @@ class RatingForm {
       group.disabled = !ready || this.going;
       for (const input of group.querySelectorAll("input")) input.checked = Number(input.value) === this.chosen[i];
       const there = stored[i] > 0 && stored[i] === this.chosen[i];
-      group.querySelector(".wb-rating-state").textContent = there ? "✓ stored" : this.chosen[i] > 0 ? "storing …" : "";
+      const state = group.querySelector(".wb-rating-state");
+      state.textContent = there ? "✓" : this.chosen[i] > 0 ? "…" : "";
+      state.title = there ? "stored" : this.chosen[i] > 0 ? "being stored" : "";
     });
     this.waiting.textContent = ready ? "" : model.get("waiting");
     this.tell(model.get("message"));
@@ -110,7 +113,7 @@ class RatingForm {
     clearTimeout(this.late);
     if (this.going || this.chosen.some((rating, i) => rating > 0 && rating !== stored[i])) this.late = setTimeout(() => this.tell(RATING_LATE), RATING_PATIENCE);
     this.onward.disabled = !ready || this.going || missing.length > 0;
-    this.left.textContent = ready && missing.length && missing.length < model.get("letters").length ? `still to rate: ${missing.join(", ")}` : "";
+    this.left.textContent = !ready ? "" : missing.length ? `still to rate: ${missing.join(", ")}` : "✓ all stored";
   }
 }
 

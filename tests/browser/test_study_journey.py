@@ -1,0 +1,103 @@
+"""A participant's way through a study in JupyterLab, by keyboard, with a reload in the middle."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import nbformat
+import pytest
+
+from tests.browser.chromium import Visit
+from tests.browser.lab import Lab, in_kernel, open_and_run
+from workbench.datasets import load
+from workbench.study.database import read_study
+from workbench.study.design import StudyDesign, store_design
+from workbench.study.run import StudyRun
+from workbench.study.stimuli import Clip, make_stimuli, practice_stimuli
+
+pytestmark = pytest.mark.browser
+
+
+@pytest.fixture
+def study(tmp_path: Path) -> Path:
+    """Make a study of two clips, half a second each, by two methods."""
+    parts = [
+        Clip.from_start(name, load(name), seconds=0.5)
+        for name in ("cmu/01_01-jump", "cmu/01_03-walk")
+    ]
+    stimuli = [s for part in parts for s in make_stimuli(part, ["uniform", "pb"], count=3)]
+    path = tmp_path / "study.sqlite"
+    store_design(path, StudyDesign(tuple(stimuli), practice_stimuli(parts[0]), seed=1))
+    return path
+
+
+@pytest.fixture
+def notebook(lab: Lab, study: Path) -> str:
+    """Put the participants' notebook with this study among those of JupyterLab."""
+    page = nbformat.read(lab.folder / "take_part.ipynb", as_version=4)
+    parameters = next(cell for cell in page.cells if cell.id == "parameters")
+    parameters.source = f"study = {str(study)!r}"
+    nbformat.write(page, lab.folder / "take_part_here.ipynb")
+    return "take_part_here.ipynb"
+
+
+def rate(page: Any, *digits: str) -> None:
+    """Rate figures from the first one on: a digit each, and Tab to the next."""
+    page.wait_for_function("document.querySelector('.wb-rating fieldset:not([disabled])')")
+    page.locator(".wb-rating-heading").focus()
+    for digit in digits:
+        page.keyboard.press("Tab")
+        page.keyboard.press(digit)
+
+
+def go_on(page: Any, button: str) -> None:
+    """Go to the button behind the last figure, which is there when all is stored, and press it."""
+    page.wait_for_function("!document.querySelector('.wb-rating-onward').disabled")
+    page.keyboard.press("Tab")
+    assert page.evaluate("document.activeElement.textContent") == button
+    page.keyboard.press("Enter")
+
+
+def item(page: Any, name: str) -> None:
+    """Wait for an item."""
+    page.wait_for_function(
+        "(name) => document.querySelector('.wb-rating-heading')?.textContent === name", arg=name
+    )
+
+
+def test_a_participant_goes_through_a_study_by_keyboard(
+    lab: Lab, notebook: str, study: Path, visit: Visit
+) -> None:
+    """Exercise, two movements, a reload in the middle of the second: the file has it all."""
+    page = visit.page
+    open_and_run(page, lab, notebook)
+    page.get_by_role("button", name="Begin").focus()
+    page.keyboard.press("Enter")
+    item(page, "Exercise")
+    rate(page, "9", "2")
+    go_on(page, "Start")
+    item(page, "Movement 1 of 2")
+    rate(page, "5", "7", "0")
+    go_on(page, "Next movement")
+    item(page, "Movement 2 of 2")
+    rate(page, "3")
+    page.locator(".wb-rating-state[title=stored]").first.wait_for()
+    code = StudyRun(study, 1).code
+    assert f"Your code is {code}" in page.locator(".wb-rating").inner_text()
+
+    open_and_run(page, lab, notebook)
+    item(page, "Movement 2 of 2")
+    page.locator(".wb-rating-state[title=stored]").first.wait_for()
+    assert page.locator(".wb-rating input:checked").evaluate_all(
+        "(inputs) => inputs.map((input) => input.value)"
+    ) == ["3"]
+    rate(page, "3", "4", "8")
+    go_on(page, "Finish")
+    page.get_by_text(f"You took part as {code}").wait_for()
+
+    answers = read_study(study).sort_values("position")
+    assert answers["rating"].tolist() == [5, 7, 10, 3, 4, 8]
+    shown = [s.name for item in StudyRun(study, 1).items for s in item]
+    assert answers["stimulus"].tolist() == shown
+    assert in_kernel(page, "print(page.run.participant, page.failure)").split() == ["1"]
