@@ -22,6 +22,7 @@ from tests.browser.authoring_page import (
     pixel,
     place_at,
 )
+from tests.browser.axe import violations
 from tests.browser.chromium import Visit
 from workbench.authoring.trajectories import Trajectory
 from workbench.widgets.export import export_html
@@ -257,6 +258,25 @@ def test_a_turned_joint_shows_live_and_is_told_at_the_end(mount: Callable) -> No
     assert told == {"kind": "turn", "marker": 1, "joint": 1, "angles": [0, 0, 25], "place": None}
 
 
+def test_turning_by_keys_is_one_edit(mount: Callable) -> None:
+    """Steps of the arrow keys add up; Escape puts the joint back, leaving tells."""
+    page = mount(pad(mode="markers", selected=1))
+    page.get_by_label("Joint", exact=True).select_option("1")
+    slider = page.get_by_label("Turn about z, degrees")
+    slider.focus()
+    for _ in range(3):
+        page.keyboard.press("ArrowRight")
+    assert shown_angle(page) == pytest.approx(33.0, abs=1e-6)
+    page.keyboard.press("Escape")
+    assert shown_angle(page) == pytest.approx(30.0, abs=1e-6)
+    for _ in range(5):
+        page.keyboard.press("ArrowLeft")
+    assert edit(page) == {}
+    page.keyboard.press("Tab")
+    assert edit(page)["angles"] == [0, 0, -5]
+    assert edit(page)["number"] == 1
+
+
 @pytest.mark.parametrize(("choice", "place"), [("here", [7.0, 3.0]), ("best", "best")])
 def test_a_turned_pose_can_be_a_new_marker(mount: Callable, choice: str, place: Any) -> None:
     """It goes where was looked at or where the optimizer wants; the old marker stays."""
@@ -399,6 +419,21 @@ def test_markers_at_one_place_are_told_and_give_a_pose(mount: Callable) -> None:
     assert text.startswith("B and C are at the same place")
 
 
+def test_what_python_sends_is_glided_to(mount: Callable, visit: Visit) -> None:
+    """Markers are on their way at first and there at the end; a new gesture ends the way."""
+    visit.page.emulate_media(reduced_motion="no-preference")
+    page = mount(pad(mode="markers"))
+    moved = MARKERS.copy()
+    moved[1, 1] += 6.0
+    answer(page, markers=moved)
+    page.wait_for_function(f"{PAD}.glide.goal === null")
+    assert array(page, "markers").tolist() == moved.ravel().tolist()
+    answer(page, markers=MARKERS)
+    assert page.evaluate(f"{PAD}.glide.goal !== null")
+    page.evaluate(f"{PAD}.hold()")
+    assert array(page, "markers").tolist() == MARKERS.ravel().tolist()
+
+
 def test_undo_and_redo_are_told(mount: Callable) -> None:
     """By button and by key, each only where there is something."""
     page = mount(pad(undo_label="deform", redo_label=""))
@@ -482,11 +517,20 @@ def test_nothing_of_the_keyboard_reaches_the_notebook(mount: Callable) -> None:
     page = mount(pad(mode="markers"))
     page.evaluate("document.addEventListener('keydown', (e) => (window.heard ??= []).push(e.key))")
     page.locator(PLOT).focus()
-    for key in ["d", "m", "a", "Enter", "Escape", "ArrowDown", " ", "Delete"]:
+    for key in ["x", "d", "m", "a", "Enter", "Escape", "ArrowDown", " ", "Delete"]:
         page.keyboard.press(key)
     page.get_by_label("Speed").focus()
     page.keyboard.press("ArrowDown")
     assert page.evaluate("window.heard ?? []") in ([], ["Escape"])
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_the_pad_breaks_no_rule_of_accessibility(mount: Callable, visit: Visit, theme: str) -> None:
+    """Names, roles and contrast, with a marker selected and deforming chosen."""
+    visit.page.set_content("<!doctype html><title>A widget</title>")
+    visit.page.emulate_media(color_scheme=theme)
+    page = mount(pad(mode="deform", selected=1, undo_label="deform"))
+    assert violations(page, ".wb") == []
 
 
 # Without Python.

@@ -40,6 +40,7 @@ class AuthoringPad extends PadClock {
       cancelAnimationFrame(this.request);
       cancelAnimationFrame(this.glide.request);
       clearTimeout(this.patience);
+      clearTimeout(this.pose.finishing);
     });
   }
 
@@ -126,6 +127,7 @@ class AuthoringPad extends PadClock {
   }
 
   select(marker) {
+    this.pose.finish();
     if (marker === this.selected) return;
     this.selected = marker;
     this.save("selected", marker);

@@ -30,6 +30,7 @@ class PadInput {
   press(event) {
     const { pad } = this;
     if (!pad.scene || this.pressed) return;
+    pad.pose.finish();
     pad.words.say("");
     pad.plane.plot.setPointerCapture(event.pointerId);
     const pans = event.button === 1 || event.shiftKey;
@@ -88,11 +89,12 @@ class PadInput {
     const typing = event.target.closest("select, input");
     if (event.ctrlKey || event.metaKey) return typing ? undefined : this.history(event);
     if (event.altKey || !pad.scene) return;
+    // JupyterLab would take it as a command to its cells, even one that means nothing here.
+    if (event.key.length === 1) event.stopPropagation();
     const isButton = event.target.closest("button");
-    if (typing || (isButton && [" ", "Enter"].includes(event.key))) {
-      event.stopPropagation(); // JupyterLab would take the key as a command to its cells
-      return;
-    }
+    const puttingBack = event.key === "Escape" && pad.holding;
+    const itsOwn = typing || (isButton && [" ", "Enter"].includes(event.key));
+    if (itsOwn && !puttingBack) return event.stopPropagation();
     if (!this.act(event)) return;
     event.stopPropagation();
     event.preventDefault();

@@ -3,6 +3,7 @@
 
 const POSE_TALL = [260, 460];
 const JOINT_REACH = 14; // pixels from a joint within which a click picks it
+const KEYS_REST = 700; // milliseconds without a key after which a turn is done
 const AXES = ["x", "y", "z"];
 const PLACES_OF_TURNED = [
   ["", "changes this marker"],
@@ -38,7 +39,12 @@ class PadPose {
       const field = element("input", { type: "number", min: "-180", max: "180", step: "1", value: "0", "aria-label": `Degrees about ${axis}` });
       on(slider, "input", () => this.turn(i, Number(slider.value)));
       on(field, "input", () => Number.isFinite(field.valueAsNumber) && this.turn(i, field.valueAsNumber, field));
-      for (const node of [slider, field]) on(node, "change", () => this.tell());
+      for (const node of [slider, field]) {
+        on(node, "keydown", ({ key }) => (this.byKeys = key !== "Enter"));
+        on(node, "pointerdown", () => (this.byKeys = false));
+        on(node, "change", () => this.finishSoon());
+        on(node, "blur", () => this.finish());
+      }
       return { slider, field, node: element("label", { class: "wb-pad-turn" }, [element("span", { text: axis }), slider, field]) };
     });
     on(this.joints, "keydown", (event) => event.stopPropagation());
@@ -71,6 +77,7 @@ class PadPose {
   }
 
   pick(joint) {
+    this.finish();
     this.joint = joint;
     this.joints.value = String(joint);
     this.setAngles([0, 0, 0]);
@@ -108,8 +115,16 @@ class PadPose {
     this.draw();
   }
 
+  /** Keys change a number step by step: what they do is one edit, after the last of them. */
+  finishSoon() {
+    clearTimeout(this.finishing);
+    if (!this.byKeys) return this.finish();
+    this.finishing = setTimeout(() => this.finish(), KEYS_REST);
+  }
+
   /** Tell Python what was turned, now that the hand has let go. */
-  tell() {
+  finish() {
+    clearTimeout(this.finishing);
     if (!this.start) return;
     const { pad, joint, angles } = this;
     const { marker } = this.start;
@@ -124,6 +139,7 @@ class PadPose {
 
   /** Put the joint back that is being turned. */
   abandon() {
+    clearTimeout(this.finishing);
     if (!this.start) return;
     this.start = this.preview = null;
     this.setAngles([0, 0, 0]);
