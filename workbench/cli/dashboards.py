@@ -13,6 +13,8 @@ DASHBOARDS = (
     "explain_optimizer",
     "inspect_keyframes",
     "author_motion",
+    "user_study",
+    "take_part",
 )
 
 

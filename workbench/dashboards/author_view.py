@@ -149,7 +149,8 @@ class AuthorView:
         lines = [alert(words) for words in told]
         if clip is not None and scene is not None:
             lines.append(remark(clip.source.name, _about(clip, scene), _about_places(refined)))
-        self._message.value = "".join(lines)
+        # Named for who waits for what it says.
+        self._message.value = f'<div class="wb-author-about">{"".join(lines)}</div>'
 
     def _influence(self, clip: Clip, scene: Scene) -> NDArray[np.float64]:
         """Compute how markers move frames; it stays the same as long as the poses do."""
