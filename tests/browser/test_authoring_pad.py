@@ -77,6 +77,26 @@ def test_a_click_on_the_trajectory_goes_to_its_time(mount: Callable) -> None:
     assert page.evaluate("mounted[0].model.get('time')") == pytest.approx(1.0)
 
 
+def test_what_is_seen_is_the_persons_choice(mount: Callable) -> None:
+    """Wheel and drag with Shift change it, Python's answers do not; "Show all" goes back."""
+    page = mount(pad())
+    first = pixel(page, MARKERS[0])
+    page.locator(PLOT).focus()
+    page.mouse.move(*first)
+    page.mouse.wheel(0, -400)
+    page.wait_for_function(f"{PAD}.plane.view.zoom > 1.5")
+    assert pixel(page, MARKERS[0]) == pytest.approx(first, abs=1)
+    page.keyboard.down("Shift")
+    drag(page, first, (first[0] + 40, first[1] - 30))
+    page.keyboard.up("Shift")
+    assert pixel(page, MARKERS[0]) == pytest.approx((first[0] + 40, first[1] - 30), abs=1)
+    answer(page, markers=MARKERS)
+    assert pixel(page, MARKERS[0]) == pytest.approx((first[0] + 40, first[1] - 30), abs=1)
+    page.keyboard.press("f")
+    assert pixel(page, MARKERS[0]) == pytest.approx(first, abs=1)
+    assert edit(page) == {}
+
+
 # Markers.
 
 

@@ -21,7 +21,7 @@ class AuthoringPad extends PadClock {
     this.hands = { scrub: new ScrubHand(this), markers: new MarkerHand(this), deform: new DeformHand(this), draw: new DrawHand(this) };
     this.words = new PadWords(this, hintId);
     const under = element("div", { class: "wb-bar wb-pad-under" }, [this.words.readout, this.tools.radius]);
-    const left = element("div", { class: "wb-pad-left" }, [this.plane.plot, under]);
+    const left = element("div", { class: "wb-pad-left" }, [this.plane.plot, under, this.words.legend]);
     const views = element("div", { class: "wb-pad-views" }, [left, this.pose.node]);
     root.append(this.tools.node, views, this.words.message, this.clock.node, this.words.hint, this.words.live);
     this.input = new PadInput(this, signal);
@@ -74,7 +74,7 @@ class AuthoringPad extends PadClock {
     else scene.lastGood = before.lastGood;
     this.selected = Math.min(this.model.get("selected"), scene.count - 1);
     this.plane.resize();
-    if (!this.plane.view || newBody || !this.plane.holds(scene)) this.plane.fit(scene);
+    if (!this.plane.view || newBody || (!this.plane.own && !this.plane.holds(scene))) this.plane.fit(scene);
     this.clock.read(scene);
     if (!newBody) this.glide.start(before, scene);
     this.showControls();

@@ -4,13 +4,15 @@ const PAD_MARGIN = 34; // pixels around what is there, when all of it is shown
 
 class PlaneView {
   constructor() {
-    Object.assign(this, { width: 0, height: 0, view: null });
+    // `own` is whether a person has chosen what is seen.
+    Object.assign(this, { width: 0, height: 0, view: null, own: false });
   }
 
   /** Show all of a scene. */
   fit(scene) {
     const { low, high } = boxOf(Float64Array.from([...scene.points, ...scene.embedding, ...scene.markers]));
     this.view = { x: (low[0] + high[0]) / 2, y: (low[1] + high[1]) / 2, wide: high[0] - low[0], tall: high[1] - low[1], zoom: 1 };
+    this.own = false;
   }
 
   /** Whether all of a scene is in sight. */
@@ -44,6 +46,7 @@ class PlaneView {
 
   /** Zoom so that the place under a pixel stays there. */
   zoomAt(factor, pixel = [this.width / 2, this.height / 2]) {
+    this.own = true;
     const [x, y] = this.toPlace(pixel);
     this.view.zoom = Math.min(40, Math.max(0.25, this.view.zoom * factor));
     const [nx, ny] = this.toPlace(pixel);
@@ -52,6 +55,7 @@ class PlaneView {
   }
 
   pan(dx, dy) {
+    this.own = true;
     this.view.x -= dx / this.scale;
     this.view.y += dy / this.scale;
   }
