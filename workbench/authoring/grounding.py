@@ -18,9 +18,8 @@ from workbench.mocap.kinematics import end_site_positions, joint_positions
 from workbench.mocap.motion import Motion, check_motion
 from workbench.mocap.skeleton import Skeleton
 
-#: Height above the ground, as a share of the leg's length, up to which the lowest foot stands
-#: and from which the body is in the air.
-STANDING, FLYING = 0.04, 0.10
+#: Height above the ground, as a share of the leg's length, up to which the lowest foot stands.
+STANDING = 0.04
 
 #: Seconds without a foot on the ground up to which they are a leap, and on both sides of it in
 #: which the speed of the body is measured.
@@ -33,21 +32,20 @@ _ACROSS = [0, 2]
 
 @dataclass(frozen=True, eq=False)
 class Support:
-    """Which foot carries the body in each frame, and how surely.
+    """Which foot carries the body in each frame, if one does.
 
     Attributes
     ----------
     foot : ndarray of shape (n_frames,)
         The lower foot: a rank in what :func:`foot_points` gives.
-    share : ndarray of shape (n_frames,)
-        1 where it stands, 0 where the body is in the air, between them while it takes off or
-        lands.
+    stands : ndarray of bool, of shape (n_frames,)
+        Whether it is on the ground; else the body is in the air.
     ground : float
         Height of the ground at the feet, in file units.
     """
 
     foot: NDArray[np.intp]
-    share: NDArray[np.float64]
+    stands: NDArray[np.bool_]
     ground: float
 
 
@@ -109,8 +107,8 @@ def find_support(
 ) -> Support:
     """Find the foot that carries the body, frame by frame.
 
-    It is the lower one. It stands up to 4 % of the leg's length above the ground and below
-    it; from 10 % on the body is in the air, so that a jump stays one.
+    It is the lower one. It stands up to 4 % of the leg's length above the ground, and wherever
+    it has sunk into it; else the body is in the air, so that a jump stays one.
 
     Parameters
     ----------
@@ -137,10 +135,8 @@ def find_support(
     lowest = heights.min(axis=1)
     leg = float(np.median(motion.root_translation[:, _UP] - lowest))
     leg = leg if leg > 0 else float(np.linalg.norm(motion.skeleton.offsets[1:], axis=1).sum())
-    rise = ((lowest - level) / (leg or 1.0) - STANDING) / (FLYING - STANDING)
-    rise = np.clip(rise, 0.0, 1.0)
-    share = 1.0 - rise**2 * (3.0 - 2.0 * rise)
-    return Support(heights.argmin(axis=1), share, level)
+    stands = lowest - level <= STANDING * (leg or 1.0)
+    return Support(heights.argmin(axis=1), stands, level)
 
 
 def keep_feet(
@@ -150,15 +146,16 @@ def keep_feet(
 
     From frame to frame the root goes by as much as the supporting foot would have slid, in the
     other direction; so its path has no jump where the other foot takes over. Its height puts
-    the supporting foot on the ground, and lets go smoothly between standing and flying:
+    the foot on the ground:
 
-        x(t) = x(t − 1) + q(t − 1) − q(t),    y(t) = y₀(t) − s · h(t)
+        x(t) = x(t − 1) + q(t − 1) − q(t),    y(t) = y₀(t) − h(t)
 
-    with y₀ the height before, q the foot as seen from the root, h its height above the ground
-    and s its share of support. In a leap of up to a second x goes on evenly, from the speed
-    that the body had before to that after it: root positions that were interpolated between
-    spatial keyframes jump where a motion comes back to a pose at another place. Where no foot
-    stands for longer, the root keeps the steps that it had.
+    with y₀ the height before, q the foot as seen from the root and h its height above the
+    ground. Between the frames in which a foot stands, h is taken to change evenly, so that
+    nothing jumps. In a leap of up to a second x goes on evenly too, from the speed that the
+    body had before to that after it: root positions that were interpolated between spatial
+    keyframes jump where a motion comes back to a pose at another place. Where no foot stands
+    for longer, the root keeps the steps that it had.
 
     Parameters
     ----------
@@ -197,8 +194,9 @@ def keep_feet(
     support = _fitting(motion, support, feet)
     root = np.array(motion.root_translation, dtype=np.float64)
     every = np.arange(len(motion))
-    height = points[every, support.foot, _UP] - support.ground
-    root[:, _UP] -= support.share * height
+    if support.stands.any():
+        height = points[every, support.foot, _UP] - support.ground
+        root[:, _UP] -= np.interp(every, every[support.stands], height[support.stands])
     seen = points - motion.root_translation[:, None]
     steps = -_steps(seen, support.foot)[:, _ACROSS]
     stands = _stands(support)
@@ -259,8 +257,7 @@ def _steps(points: NDArray[np.float64], foot: NDArray[np.intp]) -> NDArray[np.fl
 
 def _stands(support: Support) -> NDArray[np.bool_]:
     """Tell on which ways from frame to frame a foot stands: (n_frames − 1,)."""
-    full: NDArray[np.bool_] = support.share >= 1.0
-    return full[1:] & full[:-1]
+    return support.stands[1:] & support.stands[:-1]
 
 
 def _leap(steps: NDArray[np.float64], stands: NDArray[np.bool_], frame_time: float) -> None:
