@@ -21,6 +21,20 @@ from workbench.mocap.motion import Motion
 from workbench.spaces import PoseSpace
 
 
+@dataclass(frozen=True, eq=False)
+class FootSlide:
+    """How fast the supporting foot slides, without and with keeping it in place.
+
+    Attributes
+    ----------
+    before, after : ndarray of shape (n_frames,)
+        Horizontal speed in each frame, in file units per second; 0 where no foot stands.
+    """
+
+    before: NDArray[np.float64]
+    after: NDArray[np.float64]
+
+
 def play(scene: Scene, space: PoseSpace) -> Motion:
     """Play a scene's trajectory as a motion of its clip's skeleton.
 
@@ -57,20 +71,6 @@ def play(scene: Scene, space: PoseSpace) -> Motion:
     check_clip(scene, space)
     motion = _as_rebuilt(scene, space)
     return keep_feet(motion, _support(motion, space)) if scene.keep_feet else motion
-
-
-@dataclass(frozen=True, eq=False)
-class FootSlide:
-    """How fast the supporting foot slides, without and with keeping it in place.
-
-    Attributes
-    ----------
-    before, after : ndarray of shape (n_frames,)
-        Horizontal speed in each frame, in file units per second; 0 where no foot stands.
-    """
-
-    before: NDArray[np.float64]
-    after: NDArray[np.float64]
 
 
 def foot_slide(scene: Scene, space: PoseSpace) -> FootSlide:
