@@ -392,6 +392,22 @@ def test_a_dragged_handle_changes_the_timing(mount: Callable) -> None:
     assert array(page, "times").tolist() == times.tolist()
 
 
+def test_with_shift_all_that_is_later_moves_along(mount: Callable) -> None:
+    """A handle dragged with Shift makes the motion longer by as much."""
+    page = mount(pad())
+    page.locator(".wb-pad-curve").scroll_into_view_if_needed()
+    box = page.locator(".wb-pad-curve").bounding_box()
+    curve = f"{PAD}.clock.curve"
+    x, y = page.evaluate(f"{curve}.pixel(1.0, {curve}.along[10])")
+    later = page.evaluate(f"{curve}.pixel(1.5, 0)")[0]
+    page.keyboard.down("Shift")
+    drag(page, (box["x"] + x, box["y"] + y), (box["x"] + later, box["y"] + y))
+    page.keyboard.up("Shift")
+    times = edit(page)["times"]
+    assert times[10] == pytest.approx(1.5, abs=0.05)
+    assert times[40] - 4.0 == pytest.approx(times[10] - 1.0)
+
+
 # Python's answers.
 
 
@@ -407,6 +423,30 @@ def test_no_other_state_is_shown_before_the_answer(mount: Callable) -> None:
     moved[1] = [3.0, 4.0]
     answer(page, markers=moved)
     assert array(page, "markers")[2:4].tolist() == [3.0, 4.0]
+
+
+def test_edits_wait_for_the_answer_to_those_before(mount: Callable) -> None:
+    """Two quick edits are told one after the other: a second would take the first one's place."""
+    markers = np.vstack([MARKERS, [[50.0, 5.0]]])
+    more = {"marker_poses": np.tile(np.eye(3), (5, 3, 1, 1)).reshape(5, -1), "influence": []}
+    names = {"marker_frames": [*KEYS, -1], "marker_names": list("ABCDE")}
+    page = mount(pad(markers=markers, marker_roots=np.zeros((5, 3)), **more, **names))
+    for _ in range(2):
+        page.evaluate(f"{PAD}.select(0); {PAD}.removeMarker()")
+    assert [edit(page)["number"], page.evaluate(f"{PAD}.scene.count")] == [1, 3]
+    answer(page)
+    assert edit(page) == {"number": 2, "kind": "remove", "marker": 0}
+    assert page.evaluate(f"{PAD}.scene.count") == 3
+
+
+def test_a_refused_edit_is_put_back(mount: Callable) -> None:
+    """An answer that changes nothing but the message shows what was there before."""
+    page = mount(pad(mode="markers"))
+    start = pixel(page, MARKERS[1])
+    drag(page, start, (start[0] + 30, start[1] - 70))
+    answer(page, message="There is a marker already.")
+    assert array(page, "markers").tolist() == MARKERS.ravel().tolist()
+    assert page.locator(".wb-pad-message").inner_text() == "There is a marker already."
 
 
 def test_a_state_that_comes_during_a_gesture_waits(mount: Callable) -> None:

@@ -11,7 +11,7 @@ const SCENE_TRAITS = [
 class AuthoringPad extends PadClock {
   constructor(model, root, signal) {
     super(model);
-    Object.assign(this, { root, signal, hovered: -1, selected: -1, holding: false, waiting: false, pending: 0, radius: 0 });
+    Object.assign(this, { root, signal, hovered: -1, selected: -1, holding: false, waiting: false, pending: 0, sent: 0, queue: [], radius: 0 });
     const hintId = `wb-hint-${Math.random().toString(36).slice(2)}`;
     this.tools = new PadTools(this, signal);
     this.plane = new PadPlane(hintId);
@@ -48,11 +48,9 @@ class AuthoringPad extends PadClock {
 
   /** Take the traits over, unless the hand is at work or Python has still to answer. */
   arrive() {
-    const answered = this.model.get("answered") >= this.pending;
-    if (answered) clearTimeout(this.patience);
-    if (answered && this.late) this.words.say("");
-    this.late &&= !answered;
-    this.waiting = this.holding || !answered;
+    const answered = this.model.get("answered");
+    if (answered >= this.sent) this.sendNext();
+    this.waiting = this.holding || answered < this.pending;
     if (!this.waiting) this.read();
   }
 
@@ -80,11 +78,22 @@ class AuthoringPad extends PadClock {
     this.showControls();
   }
 
+  /** Tell Python of an edit, as soon as it has answered those before. */
   tell(kind, details = {}) {
-    const number = Math.max(this.pending, this.model.get("answered"), this.model.get("edit").number ?? 0) + 1;
-    this.pending = number;
-    this.save("edit", { number, kind, ...details });
+    this.pending = Math.max(this.pending, this.model.get("answered"), this.model.get("edit").number ?? 0) + 1;
+    this.queue.push({ number: this.pending, kind, ...details });
+    if (this.model.get("answered") >= this.sent) this.sendNext();
+  }
+
+  /** Send one edit: a second one before Python has read the first would take its place. */
+  sendNext() {
     clearTimeout(this.patience);
+    if (this.late) this.words.say("");
+    this.late = false;
+    const edit = this.queue.shift();
+    if (!edit) return;
+    this.sent = edit.number;
+    this.save("edit", edit);
     this.patience = setTimeout(() => {
       this.late = true;
       this.words.say("Python has not answered yet: it is busy or has stopped. What you see is kept until it does.", true);
@@ -213,14 +222,6 @@ class AuthoringPad extends PadClock {
   lookAway() {
     this.hovered = -1;
     if (this.scene && !this.playing) this.seek(this.time);
-  }
-
-  /** The original's positions beside what is shown: at the same time, or in the nearest frame. */
-  ghost() {
-    const { scene, plane } = this;
-    if (this.atTime) return scene.ghostAt(this.time);
-    const frame = plane.nearestOn(scene.embedding, plane.toPixel(this.place));
-    return frame >= 0 ? scene.ghostAt(scene.start + frame * scene.frameTime) : null;
   }
 
   // Pictures.

@@ -177,9 +177,9 @@ class PadPose {
   resize() {
     const width = this.canvas.clientWidth;
     const beside = this.node.offsetTop < this.pad.plane.plot.offsetTop + 10;
-    this.height = beside ? this.pad.plane.height : Math.round(Math.min(POSE_TALL[1], Math.max(POSE_TALL[0], 0.6 * width)));
-    this.canvas.style.height = `${this.height}px`;
-    this.width = width;
+    const tall = beside ? this.pad.plane.plot.offsetHeight : Math.round(Math.min(POSE_TALL[1], Math.max(POSE_TALL[0], 0.6 * width)));
+    this.canvas.style.height = `${tall}px`;
+    Object.assign(this, { width, height: this.canvas.clientHeight });
     this.colours = stickColours(this.pad.theme);
     this.sides.replaceChildren(...sideKey(this.pad.model.get("sides"), this.colours));
   }
@@ -195,7 +195,7 @@ class PadPose {
     const root = (pad.atTime && scene.rootAt(pad.time)) || pose.root;
     const p = (this.shown = scene.positions({ rotations: pose.rotations, root }));
     const figures = [p];
-    const original = pad.model.get("show_ghost") ? pad.ghost() : null;
+    const original = pad.model.get("show_ghost") ? this.original() : null;
     if (original) figures.unshift(this.beside(original, p));
     this.describe(original !== null);
     this.see = this.stage.camera(figures[0], width / 2, width, this.height);
@@ -211,6 +211,14 @@ class PadPose {
     const what = pad.atTime ? `pose at ${(pad.time - scene.start).toFixed(2)} s` : marker >= 0 ? `pose of ${scene.nameOf(marker)}` : "pose at the place looked at";
     this.caption.textContent = withGhost ? `${what} · original in grey` : what;
     if (!pad.playing) this.canvas.setAttribute("aria-label", `Stick figure, ${this.caption.textContent}. ${ORBIT_HINT}`);
+  }
+
+  /** The original's positions: at the same time, or in the frame nearest to the place. */
+  original() {
+    const { scene, plane, atTime, time, place } = this.pad;
+    if (atTime) return scene.ghostAt(time);
+    const frame = plane.nearestOn(scene.embedding, plane.toPixel(place));
+    return frame >= 0 ? scene.ghostAt(scene.start + frame * scene.frameTime) : null;
   }
 
   /** The original where the figure stands, because poses are compared and not ways. */
