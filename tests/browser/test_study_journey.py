@@ -8,9 +8,11 @@ from typing import Any
 import nbformat
 import pytest
 
+from tests.browser.axe import violations
 from tests.browser.chromium import Visit
 from tests.browser.lab import Lab, in_kernel, open_and_run
 from workbench.datasets import load
+from workbench.study.analysis import analyse_answers
 from workbench.study.database import read_study
 from workbench.study.design import StudyDesign, store_design
 from workbench.study.run import StudyRun
@@ -35,11 +37,16 @@ def study(tmp_path: Path) -> Path:
 @pytest.fixture
 def notebook(lab: Lab, study: Path) -> str:
     """Put the participants' notebook with this study among those of JupyterLab."""
-    page = nbformat.read(lab.folder / "take_part.ipynb", as_version=4)
+    return with_study(lab, "take_part", study)
+
+
+def with_study(lab: Lab, name: str, study: Path) -> str:
+    """Copy a notebook, with the path of a study for its parameter."""
+    page = nbformat.read(lab.folder / f"{name}.ipynb", as_version=4)
     parameters = next(cell for cell in page.cells if cell.id == "parameters")
     parameters.source = f"study = {str(study)!r}"
-    nbformat.write(page, lab.folder / "take_part_here.ipynb")
-    return "take_part_here.ipynb"
+    nbformat.write(page, lab.folder / f"{name}_here.ipynb")
+    return f"{name}_here.ipynb"
 
 
 def rate(page: Any, *digits: str) -> None:
@@ -73,6 +80,7 @@ def test_a_participant_goes_through_a_study_by_keyboard(
     page = visit.page
     open_and_run(page, lab, notebook)
     page.get_by_role("button", name="Begin").focus()
+    assert violations(page, ".jp-OutputArea-output") == []
     page.keyboard.press("Enter")
     item(page, "Exercise")
     rate(page, "9", "2")
@@ -85,6 +93,7 @@ def test_a_participant_goes_through_a_study_by_keyboard(
     page.locator(".wb-rating-state[title=stored]").first.wait_for()
     code = StudyRun(study, 1).code
     assert f"Your code is {code}" in page.locator(".wb-rating").inner_text()
+    assert violations(page, ".jp-OutputArea-output") == []
 
     open_and_run(page, lab, notebook)
     item(page, "Movement 2 of 2")
@@ -101,3 +110,29 @@ def test_a_participant_goes_through_a_study_by_keyboard(
     shown = [s.name for item in StudyRun(study, 1).items for s in item]
     assert answers["stimulus"].tolist() == shown
     assert in_kernel(page, "print(page.run.participant, page.failure)").split() == ["1"]
+
+
+def test_a_study_is_prepared_and_analysed(lab: Lab, tmp_path: Path, visit: Visit) -> None:
+    """Its file is made by a button; answers that come then are read by another one."""
+    page, study = visit.page, tmp_path / "made here.sqlite"
+    open_and_run(page, lab, with_study(lab, "user_study", study))
+    page.get_by_text("ratings, about").wait_for()
+    assert page.get_by_text("there is no such file").is_visible()
+    page.get_by_role("button", name="Make the study").click()
+    page.get_by_text("Participants open the notebook").wait_for()
+    for participant in range(1, 4):
+        run = StudyRun.begin(study)
+        for index, shown in enumerate(run.items):
+            for place, stimulus in enumerate(shown):
+                run.rate(index, place, 8 - len(stimulus.name) % 5 + (index + participant) % 3)
+            run.settle(index)
+
+    page.get_by_role("button", name="Read answers").click()
+    page.get_by_text("36 ratings by 3 participants").wait_for()
+    # One table of what is shown; two of each clip and of their mean.
+    page.locator(".wb-study-table").nth(1 + 2 * 4 - 1).wait_for()
+    page.locator(".js-plotly-plot").nth(3).wait_for()
+    assert violations(page, ".jp-OutputArea-output") == []
+    found = in_kernel(page, "print(*(c.mean_difference for c in analysis.found[0].comparisons))")
+    expected = analyse_answers(read_study(study))[0].comparisons
+    assert [float(mean) for mean in found.split()] == [c.mean_difference for c in expected]

@@ -13,6 +13,7 @@ from scipy import stats
 
 from workbench.dashboards import StudyAnalysis, analyse_study
 from workbench.errors import WorkbenchError
+from workbench.study.analysis import analyse_answers
 from workbench.study.answers import Stimulus
 from workbench.study.database import append_answer, create_study, enrol_participant
 from workbench.study.reading import read_answers
@@ -73,6 +74,15 @@ def test_the_mean_over_motions_tests_one_number_of_each_participant(study: Path)
     np.testing.assert_allclose(found.ratings.to_numpy(), means)
     expected = stats.ttest_rel(means[:, 1], means[:, 2])
     assert found.comparisons[2].t == pytest.approx(expected.statistic)
+
+
+def test_stimuli_have_one_order_in_all_motions(study: Path) -> None:
+    """So a method has one colour, whatever was answered first; the original leads."""
+    answers = read_answers(study)
+    mixed = answers.drop(index=[0, 4]).iloc[::-1].reset_index(drop=True)
+    columns = [list(found.ratings.columns) for found in analyse_answers(mixed)]
+    assert columns[0][0] == "original"
+    assert columns == [columns[0]] * 3
 
 
 def test_a_clip_that_was_rated_by_one_is_told_and_the_others_are_shown(tmp_path: Path) -> None:
@@ -143,6 +153,8 @@ def test_each_bar_is_a_rating_with_the_mean_before_them(study: Path) -> None:
     assert [trace.name for trace in figure.data] == list(NAMES)
     assert list(figure.data[0].y) == [8.5, 9, 7, 8, 10]
     low, high = stats.t.interval(0.95, 3, 8.5, stats.sem(RATINGS[:, 0]))
-    np.testing.assert_allclose(figure.data[0].error_y.array, [(high - low) / 2, 0, 0, 0, 0])
+    reach, *others = figure.data[0].error_y.array
+    assert reach == pytest.approx((high - low) / 2)
+    assert others == [None] * 4
     many = pd.concat([found.ratings] * 7, ignore_index=True)
     assert list(rating_bars(many, "walk").data[0].x) == ["mean"]

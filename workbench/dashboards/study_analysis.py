@@ -147,8 +147,12 @@ def _shown(found: MotionAnalysis) -> list[widgets.Widget]:
 
 def _about(answers: pd.DataFrame) -> str:
     n_people = answers["participant"].nunique()
+    stimuli = ["test_case", "motion", "stimulus"]
+    n_stimuli = len(answers[stimuli].drop_duplicates())
+    n_complete = int((answers["participant"].value_counts() == n_stimuli).sum())
     words = (
         f"{len(answers)} ratings by {n_people} {'participant' if n_people == 1 else 'participants'}"
+        f", {n_complete} of whom rated everything that anyone rated"
     )
     table = base64.b64encode(answers.to_csv(index=False, lineterminator="\n").encode()).decode()
     link = (

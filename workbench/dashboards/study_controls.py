@@ -13,6 +13,7 @@ from workbench.validation import whole_number
 #: How the number of keyframes is decided.
 COUNTS = ("as saliency finds", "a share of the frames", "a number")
 _NO_EXERCISE = ""
+_ROWS = 10
 
 
 class StudyControls:
@@ -71,6 +72,7 @@ class StudyControls:
         self.view = widgets.VBox(
             [
                 control_row([self.clips, self.methods]),
+                widgets.HTML("<small>Ctrl and Shift choose several clips and methods.</small>"),
                 control_row([self.own]),
                 control_row([self.rule, self.count, self.share, self.seconds]),
                 control_row([self.exercise, self.seed]),
@@ -137,14 +139,14 @@ class StudyControls:
         options = [(clip.text, clip.name) for clip in clips]
         self.clips = widgets.SelectMultiple(
             options=options,
-            rows=8,
+            rows=_ROWS,
             description="Clips",
             style=FITTING,
             layout=widgets.Layout(flex="3 1 340px", max_width="640px"),
         )
         self.methods = widgets.SelectMultiple(
             options=list(selectors),
-            rows=8,
+            rows=_ROWS,
             description="Methods",
             style=FITTING,
             layout=widgets.Layout(flex="1 1 180px", max_width="260px"),

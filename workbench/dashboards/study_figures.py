@@ -51,7 +51,7 @@ def rating_bars(ratings: pd.DataFrame, title: str) -> go.Figure:
             x=[_MEAN, *people],
             y=[mean, *(values if people else [])],
             error_y={
-                "array": [_half_width(known), *([0.0] * len(people))],
+                "array": [_half_width(known), *([None] * len(people))],
                 "color": "rgba(128, 128, 128, 1)",
                 "thickness": 1.5,
                 "width": 4,

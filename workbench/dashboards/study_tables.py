@@ -63,7 +63,6 @@ def comparisons_table(found: MotionAnalysis) -> str:
             _signed(c.mean_difference),
             f"{_signed(c.low)} to {_signed(c.high)}",
             _signed(c.t),
-            p_text(c.p_one_sided),
             p_text(c.p_two_sided),
             p_text(c.p_holm) + star,
             _signed(c.effect_size),
@@ -71,7 +70,7 @@ def comparisons_table(found: MotionAnalysis) -> str:
         ]
         rows.append((c.label, cells))
     heads = ["pair", "n", "difference", "95 % interval", "t"]
-    heads += ["p one-sided", "p two-sided", "p Holm", "d_z", "g_z"]
+    heads += ["p two-sided", "p Holm", "d_z", "g_z"]
     notes = dict.fromkeys(f"{c.label}: {c.note}." for c in found.comparisons if c.note)
     caption = (
         f"Paired t tests. p Holm is two-sided and corrected for the {len(rows)} pairs of this "

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from workbench.errors import DegenerateDataWarning, WorkbenchError
 from workbench.study.answers import motions_of, ratings_of
 from workbench.study.comparisons import PairedComparison, compare_stimuli
+from workbench.study.stimuli import ORIGINAL
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -52,7 +53,8 @@ def analyse_answers(answers: pd.DataFrame) -> list[MotionAnalysis]:
     Returns
     -------
     list of MotionAnalysis
-        In order of appearance, means behind the motions of their test case.
+        In the order in which the participant with most answers gave them, means behind the
+        motions of their test case. Stimuli have the same order in all motions of a test case.
 
     Examples
     --------
@@ -66,16 +68,31 @@ def analyse_answers(answers: pd.DataFrame) -> list[MotionAnalysis]:
     1.5
     """
     found: list[MotionAnalysis] = []
+    answers = _fullest_first(answers)
     motions = motions_of(answers)
     for case in dict.fromkeys(case for case, _ in motions):
         names = [motion for other, motion in motions if other == case]
-        tables = [ratings_of(answers, case, name) for name in names]
+        tables = _alike([ratings_of(answers, case, name) for name in names])
         found += [
             _analysis(f"{case}: {name}", table) for name, table in zip(names, tables, strict=True)
         ]
         if len(names) > 1:
             found.append(_analysis(f"{case}: mean over {len(names)} motions", _mean(tables)))
     return found
+
+
+def _fullest_first(answers: pd.DataFrame) -> pd.DataFrame:
+    """Move the participant with most answers to the front, where order is taken from."""
+    fullest = answers["participant"].value_counts(sort=False).idxmax()
+    rank = answers["participant"] != fullest
+    return answers.loc[rank.sort_values(kind="stable").index]
+
+
+def _alike(tables: Sequence[pd.DataFrame]) -> list[pd.DataFrame]:
+    """Give the columns of several tables one order."""
+    names = list(dict.fromkeys(name for table in tables for name in table.columns))
+    names.sort(key=lambda name: name != ORIGINAL)
+    return [table[[name for name in names if name in table.columns]] for table in tables]
 
 
 def _analysis(title: str, ratings: pd.DataFrame) -> MotionAnalysis:
