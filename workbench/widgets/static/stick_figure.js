@@ -21,6 +21,7 @@ const FIGURE_TILES = 3; // of the ground, to each side
 const TILE_SHARE = 3.6; // of them as far as limbs reach, so that corners stay in the picture
 const FIRST_VIEW = { turn: 0.6, tilt: 0.2, zoom: 1 }; // radians, radians, times
 const ZOOMS = [0.6, 5];
+const LEAST_PIXELS = 0.5; // of a bone that is drawn
 const STEEPEST = 1.4; // radians from the horizon
 
 /** Colours of figures in a theme; `paper` is what they are drawn on. */
@@ -146,7 +147,8 @@ class StickFigures {
 
   /** Draw the far limbs, the trunk, the head and the near limbs, so that these are in front. */
   drawBones(context, see, p, colours) {
-    const at = (node) => see(p[3 * node], p[3 * node + 1], p[3 * node + 2]);
+    const seen = this.parents.map((_, node) => see(p[3 * node], p[3 * node + 1], p[3 * node + 2]));
+    const at = (node) => seen[node];
     const width = this.limbWidth(see);
     context.lineCap = "round";
     const limbs = (side) => {
@@ -170,8 +172,11 @@ class StickFigures {
     context.beginPath();
     for (let node = 0; node < this.parents.length; node++) {
       if (this.parents[node] < 0 || node === this.head || !isOne(node)) continue;
-      context.moveTo(...at(this.parents[node]));
-      context.lineTo(...at(node));
+      const [from, to] = [at(this.parents[node]), at(node)];
+      // Bones of no length, of which files have many, would cost as much as others.
+      if (Math.abs(from[0] - to[0]) + Math.abs(from[1] - to[1]) < LEAST_PIXELS) continue;
+      context.moveTo(from[0], from[1]);
+      context.lineTo(to[0], to[1]);
     }
     context.strokeStyle = colour;
     context.lineWidth = width;
