@@ -66,3 +66,23 @@ def test_with_nothing_to_save_the_buttons_cannot_be_pressed(mount: Callable[...,
     """They are there and disabled."""
     page = mount(FileButtons(offers=OFFERS, enabled=False))
     assert [button.is_disabled() for button in page.get_by_role("button").all()] == [True, True]
+
+
+def test_a_file_that_is_opened_is_sent_each_time(mount: Callable[..., Any]) -> None:
+    """Name and bytes arrive, also of a file that was chosen before."""
+    offer = {"want": "session", "text": "Open session", "hint": "A file", "takes": ".json"}
+    page = mount(FileButtons(offers=[offer], enabled=False))
+    page.evaluate(
+        """() => {
+          window.sent = [];
+          mounted[0].model.send = (content, _, [bytes]) =>
+            sent.push([content, new TextDecoder().decode(bytes)]);
+        }"""
+    )
+    chosen = {"name": "jump.json", "mimeType": "application/json", "buffer": b"{}"}
+    for times in (1, 2):
+        with page.expect_file_chooser() as chooser:
+            page.get_by_role("button", name="Open session").click()
+        chooser.value.set_files(chosen)
+        page.wait_for_function("(times) => sent.length === times", arg=times)
+    assert page.evaluate("sent[1]") == [{"given": "session", "name": "jump.json"}, "{}"]

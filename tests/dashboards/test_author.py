@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-import datetime
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -338,20 +337,15 @@ def test_a_session_goes_on_where_it_was_saved(
     assert author.view.pad.undo_label == "open jump.session.json"
     author.undo()
     assert author.scene.clip == OTHER
-    author.controls.upload.value = (uploaded("mine.json", path.read_bytes()),)
+    give(author, "mine.json", path.read_bytes())
     assert author.scene.equals(saved)
     assert author.view.pad.undo_label == "open mine.json"
 
 
-def uploaded(name: str, content: bytes) -> dict[str, Any]:
-    """Describe a file as the browser does."""
-    return {
-        "name": name,
-        "type": "application/json",
-        "size": len(content),
-        "content": memoryview(content),
-        "last_modified": datetime.datetime(2020, 1, 1, tzinfo=datetime.UTC),
-    }
+def give(author: MotionAuthor, name: str, content: bytes) -> None:
+    """Send a file as the browser does."""
+    message = {"given": "opened", "name": name}
+    author.view.files._handle_custom_msg(message, [memoryview(content)])
 
 
 @pytest.mark.parametrize("how", ["from Python", "by path", "uploaded"])
@@ -371,7 +365,7 @@ def test_a_damaged_session_is_refused_and_nothing_lost(
             author.controls.session.value = str(path)
             author.controls.open_session.click()
         else:
-            author.controls.upload.value = (uploaded(path.name, path.read_bytes()),)
+            give(author, path.name, path.read_bytes())
         assert "damaged" in author.message
     assert author.scene is deformed
     do(author, "undo")
@@ -482,3 +476,47 @@ def test_other_endings_are_refused(
     """A file's name tells what it is."""
     with pytest.raises(WorkbenchError, match=rf"ends in \{ending}"):
         getattr(author, save)(tmp_path / "a.txt")
+
+
+def test_the_script_makes_the_same_scene(author: MotionAuthor, first: Scene) -> None:
+    """Run as it is shown, it gives the scene to the last bit, after edits of every kind."""
+    author.controls.refine.value = True
+    do(author, **EDITS["move"](first))
+    author.controls.refine.value = False
+    for name in ("add a frame", "turn at a place", "turn, optimizer's place", "remove", "turn"):
+        do(author, **EDITS[name](author.scene))
+    do(author, **EDITS["deform"](author.scene))
+    do(author, "undo")
+    do(author, **EDITS["retime"](author.scene))
+    author.keep_feet()
+    assert author.message == ""
+    assert author.view.code == author.code
+    made = run(author.code)
+    assert made["scene"].equals(author.scene)
+    np.testing.assert_array_equal(made["motion"].rotations, author.motion.rotations)
+    do(author, **EDITS["add a pose"](author.scene))
+    do(author, **EDITS["draw"](author.scene))
+    author.follow_clip()
+    author.set_kernel("cubic")
+    assert run(author.code)["scene"].equals(author.scene)
+
+
+def test_the_script_of_a_session_begins_with_its_file(
+    author: MotionAuthor, first: Scene, tmp_path: Path
+) -> None:
+    """What was before it does not matter; a scene set from Python is said to be one."""
+    do(author, **EDITS["deform"](first))
+    path = author.save(tmp_path / "jump.json")
+    author.open_session(path)
+    do(author, **EDITS["retime"](author.scene))
+    assert "deform" not in author.view.code
+    assert run(author.code)["scene"].equals(author.scene)
+    author.scene = first
+    assert "# scene: the one that was set from Python" in author.view.code
+
+
+def run(code: str) -> dict[str, Any]:
+    """Run a script and give its names."""
+    names: dict[str, Any] = {}
+    exec(code, names)
+    return names

@@ -133,7 +133,7 @@ class MotionAuthor:
         if scene.clip != name:
             raise WorkbenchError(f"scene: got one of clip {scene.clip!r}, want one of {name!r}")
         play(scene, self.space)  # refuses what does not fit the clip
-        self._live.do(Edited(scene, "set from Python"))
+        self._live.do(Edited(scene, "set from Python", ""))
 
     @property
     def space(self) -> PoseSpace:
@@ -156,6 +156,11 @@ class MotionAuthor:
             If no clip is loaded.
         """
         return play(self.scene, self.space)
+
+    @property
+    def code(self) -> str:
+        """A script that makes :attr:`scene` and :attr:`motion` again, edit by edit."""
+        return self._live.state.code
 
     @property
     def refined(self) -> Refined | None:
@@ -264,7 +269,7 @@ class MotionAuthor:
         DataError
             If the file is damaged, or its clip is another one. Nothing changes then.
         """
-        self._live.open_session(read_session(Path(path)), Path(path).name)
+        self._live.open_session(read_session(Path(path)), str(path))
 
     def export_bvh(self, path: str | Path) -> Path:
         """Write :attr:`motion` to a .bvh file; one that exists is replaced."""

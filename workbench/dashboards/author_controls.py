@@ -44,8 +44,6 @@ class AuthorControls(DataControls):
         Path of a session's file.
     open_session : ipywidgets.Button
         To open it.
-    upload : ipywidgets.FileUpload
-        Opens a session from another folder or machine.
     start, edits, opening : ipywidgets.Widget
         The controls of the clip and its markers, of edits, and of sessions to open.
     """
@@ -67,7 +65,7 @@ class AuthorControls(DataControls):
             ]
         )
         self.edits = control_row([self.refine, self.kernel, self.follow])
-        self.opening = control_row([self.session, self.open_session, self.upload])
+        self.opening = control_row([self.session, self.open_session])
 
     def offer(self, selectors: Sequence[str], projectors: Sequence[str]) -> None:
         """List methods, those registered meanwhile among them."""
@@ -149,11 +147,4 @@ class AuthorControls(DataControls):
             description="Open",
             tooltip="Open this session; what is shown can be had back by undo",
             layout=widgets.Layout(width="80px"),
-        )
-        self.upload = widgets.FileUpload(
-            accept=".json",
-            multiple=False,
-            description="Open from disk",
-            tooltip="Choose a session's file on the computer of the browser",
-            layout=widgets.Layout(width="160px"),
         )

@@ -10,6 +10,7 @@ import numpy as np
 
 from workbench.authoring import edits
 from workbench.authoring.scene import Scene
+from workbench.dashboards.author_code import edit_code
 from workbench.errors import WorkbenchError
 from workbench.spaces import PoseSpace
 
@@ -27,6 +28,8 @@ class Edited:
         The scene.
     label : str
         What undoing it is called.
+    code : str
+        The step of a script that does the same; a comment if there is none.
     moved : bool
         Whether markers have changed, so that the frames between them can be placed better.
     selected : int or None
@@ -35,6 +38,7 @@ class Edited:
 
     scene: Scene
     label: str
+    code: str
     moved: bool = False
     selected: int | None = None
 
@@ -73,7 +77,7 @@ def edited(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:
 
 def _move(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:
     moved = edits.move_marker(scene, space, edit["marker"], edit["to"])
-    return Edited(moved, f"move {scene.markers[edit['marker']].name}", moved=True)
+    return Edited(moved, f"move {scene.markers[edit['marker']].name}", edit_code(edit), moved=True)
 
 
 def _add(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:
@@ -84,13 +88,15 @@ def _add(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:
         pose = np.reshape(np.asarray(edit["rotations"], dtype=np.float64), (-1, 3, 3))
         added = edits.add_pose(scene, pose, edit["root"], edit["at"])
     last = len(added.markers) - 1
-    return Edited(added, f"add {added.markers[last].name}", moved=True, selected=last)
+    return Edited(
+        added, f"add {added.markers[last].name}", edit_code(edit), moved=True, selected=last
+    )
 
 
 def _remove(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:  # noqa: ARG001 - as the others
     removed = edits.remove_marker(scene, edit["marker"])
     name = scene.markers[edit["marker"]].name
-    return Edited(removed, f"remove {name}", moved=True, selected=-1)
+    return Edited(removed, f"remove {name}", edit_code(edit), moved=True, selected=-1)
 
 
 def _turn(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:
@@ -99,20 +105,28 @@ def _turn(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:
     turned = edits.turn_joint(scene, edit["marker"], joint, edit["angles"], place)
     word = space.motion.skeleton.names[joint]
     if place is None:
-        return Edited(turned, f"turn {word}", moved=True)
-    return Edited(turned, f"new pose: turn {word}", moved=True, selected=len(turned.markers) - 1)
+        return Edited(turned, f"turn {word}", edit_code(edit), moved=True)
+    return Edited(
+        turned,
+        f"new pose: turn {word}",
+        edit_code(edit),
+        moved=True,
+        selected=len(turned.markers) - 1,
+    )
 
 
 def _deform(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:  # noqa: ARG001 - as the others
-    return Edited(edits.deform(scene, edit["index"], edit["to"], edit["radius"]), "deform")
+    return Edited(
+        edits.deform(scene, edit["index"], edit["to"], edit["radius"]), "deform", edit_code(edit)
+    )
 
 
 def _draw(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:  # noqa: ARG001 - as the others
-    return Edited(edits.draw(scene, edit["points"], edit["times"]), "draw")
+    return Edited(edits.draw(scene, edit["points"], edit["times"]), "draw", edit_code(edit))
 
 
 def _retime(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:  # noqa: ARG001 - as the others
-    return Edited(edits.retime(scene, edit["times"]), "retime")
+    return Edited(edits.retime(scene, edit["times"]), "retime", edit_code(edit))
 
 
 _EDITS: dict[str, Callable[[Scene, PoseSpace, Mapping[str, Any]], Edited]] = {

@@ -12,13 +12,16 @@ from workbench.dashboards.author_edits import BEST, Edited, edited
 from workbench.dashboards.author_files import KINDS, content, file_stem
 from workbench.dashboards.author_jobs import Clip, Job, Methods, Placing, Posing
 from workbench.dashboards.author_session import AuthorSession
-from workbench.dashboards.author_state import AuthorState, Opening
+from workbench.dashboards.author_state import AuthorState, Opening, Step
 from workbench.dashboards.author_view import AuthorView
 from workbench.dashboards.background import Background
 from workbench.dashboards.home import Home
 from workbench.dashboards.sources import Source, loaded_here, reread, source_of
 from workbench.dashboards.worker import Worker
 from workbench.errors import WorkbenchError
+
+#: Stands in a script for a scene that was set.
+FROM_PYTHON = "# scene: the one that was set from Python"
 
 
 class LiveAuthor:
@@ -99,7 +102,9 @@ class LiveAuthor:
     def do(self, result: Edited) -> None:
         """Go on with what came of an edit."""
         self.refusal = self.trouble = ""
-        self.state.do(result.label, result.scene, moved=result.moved)
+        # Of a scene that comes from Python nobody knows how it was made.
+        step = Step(result.code or FROM_PYTHON, self.state.scene if result.code else None)
+        self.state.do(result.label, result.scene, step, moved=result.moved)
         self._wake(result.selected)
 
     def step(self, back: bool) -> None:
@@ -112,17 +117,20 @@ class LiveAuthor:
 
     def follow_clip(self) -> None:
         """Give up a trajectory that was drawn, deformed or retimed."""
-        self.do(Edited(edits.follow_clip(self.scene), "back to the clip's curve"))
+        code = "scene = edits.follow_clip(scene)"
+        self.do(Edited(edits.follow_clip(self.scene), "back to the clip's curve", code))
 
     def keep_feet(self, keep: bool) -> None:
         """Choose whether the feet are kept from sliding."""
         label = "keep the feet" if keep else "let the feet slide"
-        self.do(Edited(edits.set_keep_feet(self.scene, keep), label))
+        code = f"scene = edits.set_keep_feet(scene, {bool(keep)})"
+        self.do(Edited(edits.set_keep_feet(self.scene, keep), label, code))
 
     def set_kernel(self, kernel: str, epsilon: float | None = None) -> None:
         """Choose the radial function between key poses."""
         scene = edits.set_kernel(self.scene, kernel, epsilon)
-        self.do(Edited(scene, f"radial function {kernel}", moved=True))
+        code = f"scene = edits.set_kernel(scene, {kernel!r}, {epsilon!r})"
+        self.do(Edited(scene, f"radial function {kernel}", code, moved=True))
 
     def want_placing(self, source: Source) -> None:
         """Begin with key poses of a clip as the controls say."""
@@ -138,8 +146,15 @@ class LiveAuthor:
         )
         self._wake()
 
-    def open_session(self, session: Session, name: str) -> None:
+    def open_session(self, session: Session, path: str) -> None:
         """Go on with a session that was saved.
+
+        Parameters
+        ----------
+        session : Session
+            The session.
+        path : str
+            Its file, for who reads the script of the scene.
 
         Raises
         ------
@@ -148,16 +163,17 @@ class LiveAuthor:
         """
         self.state.drop_failed()
         scene, shown = session.scene, self.state.clip
-        label = f"open {name}"
+        label = f"open {Path(path).name}"
+        step = Step(f"scene = read_session({path!r}).scene", None)
         # A clip of that name may be in memory only, where nothing else could find it.
         same = shown is not None and shown.source.name == scene.clip
         source = shown.source if shown is not None and same else source_of(scene.clip)
         clip = self.state.clip_of(source)
         if clip is None:
-            self.state.wanted = Opening(source, scene, session.check, label)
+            self.state.wanted = Opening(source, scene, session.check, label, step)
         else:
             session.check(clip.space.motion)
-            self.state.do(label, scene, clip=clip, moved=False)
+            self.state.do(label, scene, step, clip=clip, moved=False)
         self._wake()
 
     def answer_file(self, want: str) -> None:
@@ -224,6 +240,7 @@ class LiveAuthor:
             message=self.refusal,
         )
         self.view.show_feet(scene, played)
+        self.view.show_code(state.code)
         with self.controls.silence():
             self.controls.keep_feet.value = scene.keep_feet
             self.controls.kernel.value = scene.kernel
@@ -254,7 +271,6 @@ class LiveAuthor:
         controls.kernel.observe(here(self._on_kernel), "value")
         controls.follow.on_click(here(lambda _: self._on_follow()))
         controls.open_session.on_click(here(lambda _: self._on_session()))
-        controls.upload.observe(here(self._on_upload), "value")
 
     def _on_edit(self, change: Any) -> None:
         edit = change["new"]
@@ -281,9 +297,12 @@ class LiveAuthor:
         else:
             self.do(edited(scene, clip.space, edit))
 
-    def _on_file(self, _: Any, message: dict[str, Any], __: Any) -> None:
+    def _on_file(self, _: Any, message: dict[str, Any], buffers: list[memoryview]) -> None:
         if message.get("want") in KINDS:
             self.answer_file(message["want"])
+        elif message.get("given") and buffers:
+            name, made = str(message.get("name")), bytes(buffers[0])
+            self._try_session(lambda: session_from_bytes(made, name), name)
 
     def _on_clip(self, change: Any) -> None:
         if change["new"] and not self.controls.quiet:
@@ -319,16 +338,11 @@ class LiveAuthor:
     def _on_session(self) -> None:
         path = self.controls.session.value.strip()
         if path:
-            self._try_session(lambda: read_session(path), Path(path).name)
+            self._try_session(lambda: read_session(path), path)
 
-    def _on_upload(self, change: Any) -> None:
-        for file in change["new"]:
-            made = bytes(file["content"])
-            self._try_session(lambda: session_from_bytes(made, file["name"]), file["name"])  # noqa: B023 - called at once
-
-    def _try_session(self, read: Callable[[], Session], name: str) -> None:
+    def _try_session(self, read: Callable[[], Session], path: str) -> None:
         try:
-            self.open_session(read(), name)
+            self.open_session(read(), path)
         except WorkbenchError as error:
             self.trouble = str(error)
             self._wake()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Any
 from weakref import WeakKeyDictionary, WeakSet
@@ -9,6 +10,7 @@ from weakref import WeakKeyDictionary, WeakSet
 import numpy as np
 
 from workbench.authoring import History, Scene
+from workbench.dashboards.author_code import REFINED, placing_code, posing_code, script
 from workbench.dashboards.author_jobs import (
     Clip,
     Job,
@@ -20,6 +22,23 @@ from workbench.dashboards.author_jobs import (
     Rendering,
 )
 from workbench.dashboards.sources import Source
+from workbench.mocap.motion import Motion
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """How a scene was made.
+
+    Attributes
+    ----------
+    code : str
+        A line of a script or more; empty if there is none.
+    before : Scene or None
+        The scene that it was made of; None if it was made of none.
+    """
+
+    code: str
+    before: Scene | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,12 +55,15 @@ class Opening:
         Refuses a motion that is not the session's clip.
     label : str
         What undoing it is called.
+    step : Step
+        How the scene was made.
     """
 
     source: Source
     scene: Scene
-    check: Any
+    check: Callable[[Motion], None]
     label: str
+    step: Step
 
 
 class AuthorState:
@@ -68,6 +90,7 @@ class AuthorState:
         self._clips: WeakKeyDictionary[Scene, Clip] = WeakKeyDictionary()
         self._unrefined: WeakSet[Scene] = WeakSet()
         self._played: WeakKeyDictionary[Scene, Played] = WeakKeyDictionary()
+        self._steps: WeakKeyDictionary[Scene, Step] = WeakKeyDictionary()
         self._refined: WeakKeyDictionary[Scene, Refined] = WeakKeyDictionary()
 
     @property
@@ -90,9 +113,23 @@ class AuthorState:
         """What the optimizer did to the scene, if it did something."""
         return None if self.scene is None else self._refined.get(self.scene)
 
+    @property
+    def code(self) -> str:
+        """A script that makes the scene and its motion again; empty if there is no scene."""
+        scene, clip, steps = self.scene, self.clip, list[str]()
+        if scene is None or clip is None:
+            return ""
+        while scene is not None:
+            step = self._steps[scene]
+            steps.append(step.code)
+            scene = step.before
+        return script(clip.source, reversed(steps))
+
     # Scenes.
 
-    def do(self, label: str, scene: Scene, *, clip: Clip | None = None, moved: bool) -> None:
+    def do(
+        self, label: str, scene: Scene, step: Step, *, clip: Clip | None = None, moved: bool
+    ) -> None:
         """Add a scene after the present one.
 
         Parameters
@@ -101,6 +138,8 @@ class AuthorState:
             What undoing it is called.
         scene : Scene
             The scene.
+        step : Step
+            How it was made.
         clip : Clip, optional
             Its clip; by default that of the present scene.
         moved : bool
@@ -109,7 +148,7 @@ class AuthorState:
         before = self.scene
         found = clip or self.clip
         assert found is not None  # a scene without a clip is never made
-        self._clips[scene] = found
+        self._clips[scene], self._steps[scene] = found, step
         if moved or (before in self._unrefined and _same_places(scene, before)):
             self._unrefined.add(scene)
         if self.history is None:
@@ -193,22 +232,25 @@ class AuthorState:
 
     def _begin(self, job: Placing | Posing, scene: Scene) -> None:
         if isinstance(job, Posing):
-            self.do("new pose", scene, moved=True)
+            step = Step(posing_code(job), job.scene)
+            self.do("new pose", scene, step, moved=True)
             return
         label = f"place {job.count} markers by {job.projector}"
         if self.clip is None or self.clip.source != job.source:
             label = f"open {job.source.name}"
-        self.do(label, scene, clip=self.clip_of(job.source), moved=False)
+        step = Step(placing_code(job), None)
+        self.do(label, scene, step, clip=self.clip_of(job.source), moved=False)
 
     def _open(self, opening: Opening, clip: Clip) -> None:
         self.wanted = None
         opening.check(clip.space.motion)
-        self.do(opening.label, opening.scene, clip=clip, moved=False)
+        self.do(opening.label, opening.scene, opening.step, clip=clip, moved=False)
 
     def _amend(self, before: Scene, result: Refined) -> None:
         assert self.history is not None  # whoever calls has looked
         scene = before.laid_out(before.markers, result.embedding)
         self._clips[scene] = self._clips[before]
+        self._steps[scene] = Step(REFINED, before)
         self._refined[scene] = result
         self.history.amend(scene)
 

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from workbench.authoring import FootSlide, History, Scene, influence
 from workbench.dashboards.author_controls import AuthorControls
 from workbench.dashboards.author_jobs import Clip, Played, Refined
+from workbench.dashboards.code_cell import CodeControls
 from workbench.dashboards.layout import alert, control_row, remark
 from workbench.dashboards.progress_view import ProgressView
 from workbench.mocap.body_nodes import body_nodes
@@ -33,6 +34,12 @@ _OFFERS = [
     {"want": "bvh", "text": "Save BVH", "hint": "The motion, for any animation program"},
     {"want": "session", "text": "Save session", "hint": "Everything here, to go on with later"},
     {"want": "html", "text": "Save page", "hint": "One HTML file that plays without Python"},
+    {
+        "want": "opened",
+        "text": "Open session …",
+        "hint": "Go on with a session from this computer's disk; can be undone",
+        "takes": ".json",
+    },
 ]
 
 
@@ -64,10 +71,11 @@ class AuthorView:
         channel = f"author-{next(_channels)}"
         self.pad = AuthoringPad(channel=channel)
         self.feet = TimeCurves(channel=channel)
-        self.files = FileButtons(offers=_OFFERS, enabled=False, label="Save")
+        self.files = FileButtons(offers=_OFFERS, enabled=False, label="Files")
         self.progress = ProgressView("the places of in-between frames")
         self._message = widgets.HTML()
         self._feet_words = widgets.HTML()
+        self._code = CodeControls()
         self._make_page_fields()
         self._clip: Clip | None = None
         self._shares: tuple[bytes, NDArray[np.float64]] | None = None
@@ -142,6 +150,15 @@ class AuthorView:
             self.feet.message = played.note
         self._feet_words.value = "" if slide is None else _about_feet(slide, scene.keep_feet)
 
+    def show_code(self, code: str) -> None:
+        """Offer the script that makes the scene again."""
+        self._code.show(code)
+
+    @property
+    def code(self) -> str:
+        """The script that makes the scene again."""
+        return str(self._code.cell.code)
+
     def show_message(
         self, clip: Clip | None, scene: Scene | None, refined: Refined | None, told: Sequence[str]
     ) -> None:
@@ -193,6 +210,7 @@ class AuthorView:
                 self.feet,
                 control_row([self.files, self.title, self.text]),
                 controls.opening,
+                self._code.view,
             ],
             layout=widgets.Layout(width="100%"),
         )

@@ -1,4 +1,4 @@
-"""Buttons that save files which Python makes when they are asked for."""
+"""Buttons that save files which Python makes when they are asked for, and that open some."""
 
 from __future__ import annotations
 
@@ -14,13 +14,15 @@ class FileButtons(anywidget.AnyWidget):
     """Offer files that are made only when a person wants one, and saved by the browser.
 
     A button asks by the message ``{"want": name of the offer}``. The answer is
-    :meth:`give`, or :meth:`fail` with the reason.
+    :meth:`give`, or :meth:`fail` with the reason. A button that opens a file sends
+    ``{"given": name of the offer, "name": file name}`` with its content as the only buffer.
 
     Attributes
     ----------
     offers : list of dict
         For each button ``want`` (what it asks for), ``text`` (on the button) and ``hint``
-        (a sentence about the file).
+        (a sentence about the file); with ``takes``, a file ending such as ".json", the button
+        opens a file instead.
     enabled : bool
         Whether there is something to save.
     label : str

@@ -1,4 +1,5 @@
-// Buttons for files that Python makes: each asks, waits, and saves what comes.
+// Buttons for files that Python makes: each asks, waits, and saves what comes. Others open a
+// file and send it.
 
 class FileButtons {
   constructor(model, root, signal) {
@@ -20,10 +21,11 @@ class FileButtons {
 
   read() {
     this.bar.setAttribute("aria-label", this.model.get("label"));
-    const buttons = this.model.get("offers").map(({ want, text, hint }) => {
+    const buttons = this.model.get("offers").map(({ want, text, hint, takes }) => {
       const button = element("button", { type: "button", text, title: hint });
-      button.disabled = !this.model.get("enabled");
-      button.addEventListener("click", () => this.ask(want, text), { signal: this.signal });
+      button.disabled = !takes && !this.model.get("enabled");
+      const act = () => (takes ? this.choose(want, takes) : this.ask(want, text));
+      button.addEventListener("click", act, { signal: this.signal });
       return button;
     });
     this.bar.replaceChildren(...buttons, this.note);
@@ -35,6 +37,19 @@ class FileButtons {
     this.waiting.set(want, setTimeout(giveUp, PATIENCE));
     this.note.textContent = `${text} …`;
     this.model.send({ want });
+  }
+
+  choose(given, accept) {
+    // A new one each time: it tells of a file that was chosen before, too.
+    const input = element("input", { type: "file", accept });
+    input.addEventListener("change", async () => {
+      const [file] = input.files;
+      if (!file) return;
+      this.note.textContent = `opening ${file.name} …`;
+      this.model.send({ given, name: file.name }, undefined, [await file.arrayBuffer()]);
+      this.note.textContent = "";
+    });
+    input.click();
   }
 
   receive({ answer, name, type, failure }, buffers) {
