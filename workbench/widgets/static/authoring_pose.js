@@ -15,15 +15,15 @@ class PadPose {
   constructor(pad, signal) {
     Object.assign(this, { pad, signal, joint: -1, angles: [0, 0, 0] });
     this.canvas = element("canvas", { class: "wb-pad-stage", tabindex: "0", role: "application", title: ORBIT_HINT });
-    this.caption = element("span", { class: "wb-hover wb-pad-caption" });
+    this.caption = element("div", { class: "wb-detail wb-pad-caption" });
     this.stage = new Stage({ parents: [], sides: [] });
     const redraw = () => this.draw();
     orbitByMouse(this.canvas, () => this.stage, redraw, signal);
     this.canvas.addEventListener("keydown", (event) => orbitByKey(event, this.stage) && redraw(), { signal });
     this.sides = element("span", { class: "wb-sides" });
-    const under = element("div", { class: "wb-bar" }, [orbitButtons(() => this.stage, redraw, signal), this.sides, this.caption]);
+    const under = element("div", { class: "wb-bar" }, [orbitButtons(() => this.stage, redraw, signal), this.sides]);
     this.makeTurning();
-    this.node = element("div", { class: "wb-pad-pose" }, [this.canvas, under, this.turning]);
+    this.node = element("div", { class: "wb-pad-pose" }, [element("div", { class: "wb-pad-box" }, [this.canvas, this.caption]), under, this.turning]);
     this.pickByMouse();
   }
 
@@ -157,7 +157,7 @@ class PadPose {
     const clip = Array.from({ length: scene.ghost.length / width }, (_, i) => scene.ghost.subarray(i * width, (i + 1) * width));
     if (clip.length) this.stage.measure(clip);
     else this.stage.measure(Array.from({ length: scene.count }, (_, j) => scene.positions(scene.poseAt(scene.marker(j)) ?? { rotations: scene.poses, root: [0, 0, 0] }).slice()));
-    this.joints.replaceChildren(element("option", { value: "-1", text: "choose a joint" }),
+    this.joints.replaceChildren(element("option", { value: "-1", text: "turn a joint" }),
       ...model.get("joint_names").map((name, i) => element("option", { value: String(i), text: name })));
     if (this.joint >= scene.body.joints) this.joint = -1;
     this.joints.value = String(this.joint);
@@ -169,7 +169,7 @@ class PadPose {
     const none = pad.selected < 0;
     this.turning.hidden = !editable;
     this.turning.classList.toggle("wb-pad-idle", none);
-    this.title.textContent = none ? "No marker selected" : `Turn ${pad.scene.nameOf(pad.selected)}:`;
+    this.title.textContent = none ? "No marker selected" : pad.scene.nameOf(pad.selected);
     this.joints.disabled = this.places.disabled = none;
     for (const { slider, field } of this.turns) slider.disabled = field.disabled = none || this.joint < 0;
   }
