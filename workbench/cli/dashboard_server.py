@@ -62,6 +62,9 @@ def serve_dashboards(options: list[str]) -> None:
                 "--VoilaConfiguration.classic_tree=True",
                 # Another template would bring its links to the network back.
                 "--VoilaConfiguration.allow_template_override=NO",
+                # A page that is closed leaves its kernel behind; one that is open keeps it.
+                "--MappingKernelManager.cull_idle_timeout=60",
+                "--MappingKernelManager.cull_interval=20",
                 *options,
             ]
         )
