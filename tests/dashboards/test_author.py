@@ -301,8 +301,20 @@ def test_a_wrong_clip_loses_nothing(
     assert words in author.message
     assert f"still shown: {CLIP}" in author.message
     assert author.scene is first
+    assert author.controls.data.value == CLIP
     do(author, **EDITS["deform"](first))
     assert author.message == ""
+
+
+def test_after_a_wrong_clip_markers_of_the_one_shown_are_placed(author: MotionAuthor) -> None:
+    """The button acts on what a person sees."""
+    author.open("cmu/none")
+    author.controls.count.value = 7
+    author.controls.place.click()
+    assert author.message == ""
+    assert len(author.scene.markers) == 7
+    assert author.scene.clip == CLIP
+    author.controls.count.value = 6
 
 
 def test_a_projector_that_fails_is_told_in_words(author: MotionAuthor, first: Scene) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 from workbench.authoring import Scene, play, read_session
 from workbench.dashboards.author_controls import COUNTS, AuthorControls
 from workbench.dashboards.author_edits import Edited
+from workbench.dashboards.author_events import AuthorEvents
 from workbench.dashboards.author_files import content
 from workbench.dashboards.author_jobs import CIRCLE, Methods, Refined
 from workbench.dashboards.author_live import LiveAuthor
@@ -99,6 +100,7 @@ class MotionAuthor:
         with self.controls.silence():
             self.controls.choose(source)
         self._live = LiveAuthor(self.controls, self._methods)
+        self._events = AuthorEvents(self._live)
         self._live.want_placing(source)
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:

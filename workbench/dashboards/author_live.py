@@ -6,7 +6,9 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from workbench.authoring import Scene, Session, edits, read_session, session_from_bytes
+import numpy as np
+
+from workbench.authoring import Scene, Session, edits
 from workbench.dashboards.author_controls import AuthorControls
 from workbench.dashboards.author_edits import BEST, Edited, edited
 from workbench.dashboards.author_files import KINDS, content, file_stem
@@ -15,7 +17,6 @@ from workbench.dashboards.author_session import AuthorSession
 from workbench.dashboards.author_state import AuthorState, Opening, Step
 from workbench.dashboards.author_view import AuthorView
 from workbench.dashboards.background import Background
-from workbench.dashboards.home import Home
 from workbench.dashboards.sources import Source, loaded_here, reread, source_of
 from workbench.dashboards.worker import Worker
 from workbench.errors import WorkbenchError
@@ -66,7 +67,6 @@ class LiveAuthor:
             changed=self._show,
             report=self._report,
         )
-        self._connect()
 
     @property
     def clip(self) -> Clip:
@@ -105,7 +105,7 @@ class LiveAuthor:
         # Of a scene that comes from Python nobody knows how it was made.
         step = Step(result.code or FROM_PYTHON, self.state.scene if result.code else None)
         self.state.do(result.label, result.scene, step, moved=result.moved)
-        self._wake(result.selected)
+        self.wake(result.selected)
 
     def step(self, back: bool) -> None:
         """Undo or redo."""
@@ -113,7 +113,23 @@ class LiveAuthor:
         if self.state.history is not None:
             self.state.drop_failed()
             _ = self.state.history.undo() if back else self.state.history.redo()
-        self._wake()
+        self.wake()
+
+    def edit(self, edit: dict[str, Any]) -> None:
+        """Do what the pad tells of, and answer it; one that cannot be done is answered in words."""
+        self._answered = int(edit.get("number", 0))
+        kind = edit.get("kind")
+        if kind in ("undo", "redo"):
+            self.step(back=kind == "undo")
+            return
+        try:
+            if kind == "turn" and edit.get("place") == BEST:
+                self._want_pose(edit)
+            else:
+                self.do(edited(self.scene, self.clip.space, edit))
+        except Exception as error:  # the pad waits for an answer, whatever went wrong
+            self.refusal = _words(error)
+            self.wake()
 
     def follow_clip(self) -> None:
         """Give up a trajectory that was drawn, deformed or retimed."""
@@ -144,23 +160,26 @@ class LiveAuthor:
             controls.projector.value,
             controls.seed.value,
         )
-        self._wake()
+        self.wake()
+
+    def place_anew(self) -> None:
+        """Place markers of the clip that is shown, or of the one that is being opened."""
+        wanted, clip = self.state.wanted, self.state.clip
+        if isinstance(wanted, Placing) and wanted.source not in self.state.failures:
+            self.want_placing(reread(wanted.source))
+        elif clip is not None:
+            self.want_placing(reread(clip.source))
+
+    def try_session(self, read: Callable[[], Session], path: str) -> None:
+        """Read a session and go on with it; say why if that cannot be."""
+        try:
+            self.open_session(read(), path)
+        except WorkbenchError as error:
+            self.trouble = str(error)
+            self.wake()
 
     def open_session(self, session: Session, path: str) -> None:
-        """Go on with a session that was saved.
-
-        Parameters
-        ----------
-        session : Session
-            The session.
-        path : str
-            Its file, for who reads the script of the scene.
-
-        Raises
-        ------
-        DataError
-            If the clip of that name is in memory and is another one.
-        """
+        """Go on with a session of a file; refuse it if its clip is here and is another one."""
         self.state.drop_failed()
         scene, shown = session.scene, self.state.clip
         label = f"open {Path(path).name}"
@@ -174,7 +193,7 @@ class LiveAuthor:
         else:
             session.check(clip.space.motion)
             self.state.do(label, scene, step, clip=clip, moved=False)
-        self._wake()
+        self.wake()
 
     def answer_file(self, want: str) -> None:
         """Give the person a file."""
@@ -193,17 +212,27 @@ class LiveAuthor:
         if not self.state.failures:
             self.state.ask_to_refine()
         self.state.failures.clear()
-        self._wake()
+        self.wake()
 
     def stop(self) -> None:
         """End the process that computes."""
         self._background.stop()
 
-    # Computing.
-
-    def _wake(self, selected: int | None = None) -> None:
+    def wake(self, selected: int | None = None) -> None:
+        """Show what there is, and compute what is missing."""
         self._show_scene(selected)
         self.worker.wake()
+
+    # Computing.
+
+    def _want_pose(self, edit: dict[str, Any]) -> None:
+        marker, joint, degrees = edit["marker"], edit["joint"], edit["angles"]
+        edits.turn_joint(self.scene, marker, joint, degrees)  # refuses what cannot be done
+        self.refusal = self.trouble = ""
+        self.state.drop_failed()
+        angles = tuple(map(float, degrees))
+        self.state.wanted = Posing(self.clip.source, self.scene, marker, joint, angles)
+        self.wake()
 
     def _prepared(self, job: Job) -> tuple[Job, Methods]:
         return (loaded_here(job) if isinstance(job, Source) else job), self._methods
@@ -220,132 +249,43 @@ class LiveAuthor:
     # Showing.
 
     def _show_scene(self, selected: int | None = None) -> None:
-        """Show the scene in the pad, if anything about it is new."""
+        """Show the scene, as far as anything about it is new."""
         state = self.state
         if state.history is None or state.clip is None:
             return
-        played = state.played
-        now = (state.scene, played, self._answered, self.refusal)
-        if now == self._shown and selected is None:
-            return
-        self._shown = now
-        scene = state.history.scene
-        roots = played.roots if played is not None and scene.keep_feet else None
-        self.view.show(
-            state.clip,
-            state.history,
-            roots=roots,
-            answered=self._answered,
-            selected=selected,
-            message=self.refusal,
-        )
+        scene, played = state.history.scene, state.played
+        kept = played if scene.keep_feet else None
+        now = (scene, kept, self._answered, self.refusal)
+        if now != self._shown or selected is not None:
+            self._shown = now
+            self.view.show(
+                state.clip,
+                state.history,
+                roots=None if kept is None else kept.roots,
+                answered=self._answered,
+                selected=selected,
+                message=self.refusal,
+            )
+            self.view.show_code(state.code)
+            self._show_controls(scene)
         self.view.show_feet(scene, played)
-        self.view.show_code(state.code)
+
+    def _show_controls(self, scene: Scene) -> None:
+        own = edits.follow_clip(scene).trajectory
+        same = scene.follows and np.array_equal(own.times, scene.trajectory.times)
         with self.controls.silence():
             self.controls.keep_feet.value = scene.keep_feet
             self.controls.kernel.value = scene.kernel
-            own = edits.follow_clip(scene).trajectory
-            same = scene.follows and own.times.tobytes() == scene.trajectory.times.tobytes()
             self.controls.follow.disabled = same
-            if state.wanted is None:
-                self.controls.choose(state.clip.source)
 
     def _show(self) -> None:
         state = self.state
         self.view.progress.show_busy(self.worker.current is not None)
         self.view.show_message(state.clip, state.scene, state.refined, self.told())
-
-    # What a person does.
-
-    def _connect(self) -> None:
-        here, controls, view = Home().here, self.controls, self.view
-        view.pad.observe(here(self._on_edit), "edit")
-        view.files.on_msg(here(self._on_file))
-        view.progress.cancel.on_click(here(lambda _: self.worker.cancel()))
-        view.progress.again.on_click(here(lambda _: self.recompute()))
-        controls.data.observe(here(self._on_clip), "value")
-        controls.open.on_click(here(self._on_open))
-        controls.place.on_click(here(lambda _: self._on_place()))
-        controls.refine.observe(here(self._on_refine), "value")
-        controls.keep_feet.observe(here(self._on_keep_feet), "value")
-        controls.kernel.observe(here(self._on_kernel), "value")
-        controls.follow.on_click(here(lambda _: self._on_follow()))
-        controls.open_session.on_click(here(lambda _: self._on_session()))
-
-    def _on_edit(self, change: Any) -> None:
-        edit = change["new"]
-        self._answered = int(edit.get("number", 0))
-        kind = edit.get("kind")
-        if kind in ("undo", "redo"):
-            self.step(back=kind == "undo")
-            return
-        try:
-            self._edit(edit)
-        except Exception as error:  # the pad waits for an answer, whatever went wrong
-            self.refusal = _words(error)
-            self._wake()
-
-    def _edit(self, edit: dict[str, Any]) -> None:
-        scene, clip = self.scene, self.clip
-        if edit.get("kind") == "turn" and edit.get("place") == BEST:
-            edits.turn_joint(scene, edit["marker"], edit["joint"], edit["angles"])  # refuses it
-            self.refusal = self.trouble = ""
-            self.state.drop_failed()
-            angles = tuple(map(float, edit["angles"]))
-            self.state.wanted = Posing(clip.source, scene, edit["marker"], edit["joint"], angles)
-            self._wake()
-        else:
-            self.do(edited(scene, clip.space, edit))
-
-    def _on_file(self, _: Any, message: dict[str, Any], buffers: list[memoryview]) -> None:
-        if message.get("want") in KINDS:
-            self.answer_file(message["want"])
-        elif message.get("given") and buffers:
-            name, made = str(message.get("name")), bytes(buffers[0])
-            self._try_session(lambda: session_from_bytes(made, name), name)
-
-    def _on_clip(self, change: Any) -> None:
-        if change["new"] and not self.controls.quiet:
-            self.want_placing(source_of(change["new"]))
-
-    def _on_open(self, _: Any) -> None:
-        if self.controls.path.value.strip():
-            self.want_placing(source_of(self.controls.path.value))
-
-    def _on_place(self) -> None:
-        wanted, clip = self.state.wanted, self.state.clip
-        if isinstance(wanted, Placing):
-            self.want_placing(reread(wanted.source))
-        elif clip is not None:
-            self.want_placing(reread(clip.source))
-
-    def _on_refine(self, change: Any) -> None:
-        self.state.refines = change["new"]
-        self._wake()
-
-    def _on_keep_feet(self, change: Any) -> None:
-        if not self.controls.quiet and self.state.scene is not None:
-            self.keep_feet(change["new"])
-
-    def _on_kernel(self, change: Any) -> None:
-        if not self.controls.quiet and self.state.scene is not None:
-            self.set_kernel(change["new"])
-
-    def _on_follow(self) -> None:
-        if self.state.scene is not None:
-            self.follow_clip()
-
-    def _on_session(self) -> None:
-        path = self.controls.session.value.strip()
-        if path:
-            self._try_session(lambda: read_session(path), path)
-
-    def _try_session(self, read: Callable[[], Session], path: str) -> None:
-        try:
-            self.open_session(read(), path)
-        except WorkbenchError as error:
-            self.trouble = str(error)
-            self._wake()
+        wanted = state.wanted
+        if state.clip is not None and (wanted is None or wanted.source in state.failures):
+            with self.controls.silence():
+                self.controls.choose(state.clip.source)
 
 
 def _words(error: Exception) -> str:

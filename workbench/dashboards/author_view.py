@@ -78,6 +78,7 @@ class AuthorView:
         self._code = CodeControls()
         self._make_page_fields()
         self._clip: Clip | None = None
+        self._played: Played | None = None
         self._shares: tuple[bytes, NDArray[np.float64]] | None = None
         self.root = self._laid_out(controls)
 
@@ -132,8 +133,9 @@ class AuthorView:
 
     def show_feet(self, scene: Scene, played: Played | None) -> None:
         """Show how fast the supporting foot is, before and after it is kept from sliding."""
-        if played is None:
+        if played is None or played is self._played:
             return
+        self._played = played
         slide = played.slide
         curves = {} if slide is None else {_BEFORE: slide.before, _AFTER: slide.after}
         values = np.array(list(curves.values()), dtype=np.float32)
