@@ -117,7 +117,7 @@ def test_a_study_is_prepared_and_analysed(lab: Lab, tmp_path: Path, visit: Visit
     page, study = visit.page, tmp_path / "made here.sqlite"
     open_and_run(page, lab, with_study(lab, "user_study", study))
     page.get_by_text("ratings, about").wait_for()
-    assert page.get_by_text("there is no such file").is_visible()
+    assert page.get_by_text("There is no study in").is_visible()
     page.get_by_role("button", name="Make the study").click()
     page.get_by_text("Participants open the notebook").wait_for()
     for participant in range(1, 4):

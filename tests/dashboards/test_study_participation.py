@@ -11,6 +11,7 @@ import ipywidgets
 import numpy as np
 import pytest
 
+from workbench.dashboards import study_participation
 from workbench.dashboards.study_participation import StudyParticipation, take_part_in_study
 from workbench.datasets import load
 from workbench.errors import WorkbenchError
@@ -45,7 +46,19 @@ def page(study: Path) -> Iterator[StudyParticipation]:
     page.close()
 
 
+#: A clock that stands still until it is moved.
+CLOCK = [0.0]
+
+
+@pytest.fixture(autouse=True)
+def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+    monkeypatch.setattr(study_participation, "monotonic", lambda: CLOCK[0])
+    return CLOCK
+
+
 def watch(page: StudyParticipation) -> None:
+    """Let the motions play to their end, as the browser does."""
+    CLOCK[0] += 0.5
     page.player.ends += 1
 
 
@@ -108,6 +121,19 @@ def test_nothing_can_be_rated_before_it_was_seen_once(
     give(page, 5)
     assert page.form.message == ""
     assert len(read_study(study)) == 1
+
+
+def test_a_leap_to_the_end_does_not_count_as_seen(
+    page: StudyParticipation, clock: list[float]
+) -> None:
+    """The end counts once as much time has passed as the motions take."""
+    practise(page)
+    clock[0] += 0.2
+    page.player.ends += 1
+    assert not page.form.ready
+    clock[0] += 0.3
+    page.player.ends += 1
+    assert page.form.ready
 
 
 def test_a_rating_may_be_changed_while_its_item_is_shown(

@@ -30,7 +30,7 @@ def analyse_study(study: str | Path = "") -> StudyAnalysis:
     ----------
     study : str or path-like
         Name or path of a study's file, or of a CSV or Parquet file of answers; by default the
-        study that was prepared last.
+        study that was prepared or used last.
 
     Returns
     -------
@@ -95,7 +95,11 @@ class StudyAnalysis:
             self._fail("No study was prepared yet.")
             return
         try:
-            answers = read_answers(study_path(self.file.value))
+            path = study_path(self.file.value)
+            if not path.exists():
+                self._fail(f"There is no study in {path} yet.")
+                return
+            answers = read_answers(path)
         except WorkbenchError as error:
             self._fail(str(error))
             return

@@ -6,6 +6,7 @@ import hashlib
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from string import ascii_uppercase
+from time import monotonic
 from typing import Any
 
 import ipywidgets as widgets
@@ -39,7 +40,7 @@ def take_part_in_study(study: str | Path = "") -> StudyParticipation:
     ----------
     study : str or path-like
         Name or path of a study that was prepared. By default the one that the page's address
-        asks for (``take_part.ipynb?study=NAME``), or the one that was prepared last.
+        asks for (``take_part.ipynb?study=NAME``), or the one that was prepared or used last.
 
     Returns
     -------
@@ -84,6 +85,7 @@ class StudyParticipation:
         self.player = MotionPlayer()
         self.memory = TabMemory()
         self._path: Path | None = None
+        self._seen_at = 0.0
         self._here = Home().here
         self._message = widgets.HTML()
         self._body = widgets.VBox([])
@@ -175,6 +177,9 @@ class StudyParticipation:
         name = "Exercise" if index < 0 else f"Movement {index + 1} of {n_items}"
         onward = "Start" if index < 0 else "Finish" if index + 1 == n_items else "Next movement"
         before, self.index = self.player, index
+        # Whoever jumps to the end has not seen it: it takes as long as the motion is.
+        motion = motions[letters[0]]
+        self._seen_at = monotonic() + 0.9 * len(motion) * motion.frame_time
         # Another player, so that nothing of the item before stays: neither turn nor ends.
         self.player = MotionPlayer(
             **motion_traits(motions), description=f"{name}, motions side by side", autoplay=True
@@ -239,7 +244,7 @@ class StudyParticipation:
         self._welcome()
 
     def _on_end(self, change: Any) -> None:
-        if change["new"] > 0:
+        if change["new"] > 0 and monotonic() >= self._seen_at:
             self.form.ready = True
 
     def _on_chosen(self, change: Any) -> None:
