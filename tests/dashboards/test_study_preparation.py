@@ -70,6 +70,24 @@ def test_a_method_with_settings_has_a_name_of_its_own() -> None:
     preparation.close()
 
 
+def test_clips_and_the_question_may_have_names_of_their_own() -> None:
+    """So that answers can be set beside those that the thesis published."""
+    preparation = prepare_study(
+        {"walking": CLIPS[1]},
+        [Method("decimation", "optimal")],
+        test_case="contact handling",
+        count=3,
+        seconds=0.5,
+        exercise=None,
+    )
+    assert [s.key for s in preparation.design.stimuli] == [
+        ("contact handling", "walking", "original"),
+        ("contact handling", "walking", "decimation"),
+    ]
+    assert preparation.design.stimuli[0].parameters["clip"] == CLIPS[1]
+    preparation.close()
+
+
 @pytest.mark.parametrize(
     ("name", "words"),
     [

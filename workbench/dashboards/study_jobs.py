@@ -33,6 +33,8 @@ class Rebuilding:
         Of methods that draw at random.
     test_case : str
         The question that the stimuli belong to.
+    name : str
+        What tables call the clip; empty for its usual name.
     """
 
     source: Source
@@ -42,6 +44,7 @@ class Rebuilding:
     seconds: float | None
     seed: int
     test_case: str
+    name: str = ""
 
 
 @dataclass(frozen=True)
@@ -79,7 +82,8 @@ class StudySession:
         space, _ = load_source(source)
         if not isinstance(space, PoseSpace):
             raise WorkbenchError(f"{source.name}: got a table, want a motion")
-        clip = Clip.from_start(source.name, space.motion, job.seconds)
+        name = job.name if isinstance(job, Rebuilding) else ""
+        clip = Clip.from_start(source.name, space.motion, job.seconds, name)
         report(f"choosing keyframes of {source.name}", 0.2)
         if isinstance(job, Exercise):
             return practice_stimuli(clip)

@@ -1,4 +1,4 @@
-"""What a participant reads before and after the motions. No method is named here."""
+"""What a participant reads. No method is named here."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ from html import escape
 
 from workbench.study.answers import HIGHEST_RATING, LOWEST_RATING
 from workbench.study.design import StudyDesign
+
+#: What is asked for, and what is told whatever failed: its own words might name a method.
+WATCH_FIRST = "Watch the figures to the end once. Then you can rate them."
+RATE_ALL = "Please rate all figures first."
+FAILED = "That did not work. Nothing that was stored is lost. Please call whoever leads the study."
 
 _PAGE = (
     '<div class="wb-study-text" style="max-width: 44em; font-size: 15px; line-height: 1.5">{}</div>'

@@ -14,7 +14,13 @@ import ipywidgets as widgets
 from workbench.dashboards.home import Home
 from workbench.dashboards.layout import FITTING, alert, control_row, view_row
 from workbench.dashboards.study_files import known_studies, study_of_address, study_path
-from workbench.dashboards.study_pages import thanks_text, welcome_text
+from workbench.dashboards.study_pages import (
+    FAILED,
+    RATE_ALL,
+    WATCH_FIRST,
+    thanks_text,
+    welcome_text,
+)
 from workbench.errors import DataError, WorkbenchError
 from workbench.study.answers import Stimulus
 from workbench.study.design import load_design
@@ -23,10 +29,6 @@ from workbench.study.stimuli import stimulus_motion
 from workbench.widgets.player import MotionPlayer, motion_traits
 from workbench.widgets.rating_form import RatingForm
 from workbench.widgets.tab_memory import TabMemory
-
-_WATCH_FIRST = "Watch the figures to the end once. Then you can rate them."
-_RATE_ALL = "Please rate all figures first."
-_FAILED = "That did not work. Nothing that was stored is lost. Please call whoever leads the study."
 
 
 class _Asked(Exception):  # noqa: N818 - no error: a person can do it
@@ -193,7 +195,7 @@ class StudyParticipation:
                 " This one is an exercise: nothing of it is stored." if index < 0 else ""
             )
             self.form.letters, self.form.stored, self.form.chosen = letters, ratings, ratings
-            self.form.onward, self.form.waiting = onward, _WATCH_FIRST
+            self.form.onward, self.form.waiting = onward, WATCH_FIRST
             # Who has rated something has seen it.
             self.form.ready = any(ratings)
             self.form.message = ""
@@ -258,7 +260,7 @@ class StudyParticipation:
         assert self.run is not None  # the form is shown to participants only
         assert self.index is not None
         if not self.form.ready:
-            raise _Asked(_WATCH_FIRST)
+            raise _Asked(WATCH_FIRST)
         for place, rating in enumerate(chosen):
             if rating in (0, self.form.stored[place]):
                 continue
@@ -272,7 +274,7 @@ class StudyParticipation:
         if self.run is None or self.index is None:
             return
         if not all(self.form.stored):
-            raise _Asked(_RATE_ALL)
+            raise _Asked(RATE_ALL)
         if self.index >= 0:
             self.run.settle(self.index)
         self._continue()
@@ -287,7 +289,7 @@ class StudyParticipation:
             words = str(request)
         except Exception as error:  # whatever it is, the person must know that it failed
             # Its words may name the stimulus, which a participant must not learn.
-            self.failure, words = f"{type(error).__name__}: {error}", _FAILED
+            self.failure, words = f"{type(error).__name__}: {error}", FAILED
         else:
             return
         if shown:

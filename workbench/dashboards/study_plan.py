@@ -10,8 +10,6 @@ from workbench.study.answers import Stimulus
 from workbench.study.design import StudyDesign
 from workbench.study.stimuli import Method
 
-_TEST_CASE = "methods"
-
 
 class StudyPlan:
     """Derive jobs from the controls, and a study from their results.
@@ -25,12 +23,18 @@ class StudyPlan:
     ----------
     methods : dict of str to Method
         Methods that have settings of their own, by the names under which they are listed.
+    names : dict of str to str
+        What tables call clips, by how the controls list them; others have their usual names.
+    test_case : str
+        The question that the stimuli belong to.
     failures : dict of Job to str
         Why jobs have no result, in plain words.
     """
 
     def __init__(self, controls: StudyControls) -> None:
         self.methods: dict[str, Method] = {}
+        self.names: dict[str, str] = {}
+        self.test_case = "methods"
         self.failures: dict[Job, str] = {}
         self._controls = controls
         self._results: dict[Job, tuple[Stimulus, ...]] = {}
@@ -111,7 +115,8 @@ class StudyPlan:
                 ratio=controls.wanted_ratio,
                 seconds=controls.wanted_seconds,
                 seed=controls.seed.value,
-                test_case=_TEST_CASE,
+                test_case=self.test_case,
+                name=self.names.get(name, ""),
             )
             for name in controls.names
         ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,13 +22,16 @@ from workbench.study.stimuli import Method
 from workbench.validation import whole_number
 
 _CLIPS = ("cmu/01_01-jump", "cmu/01_03-walk", "cmu/01_03-swing")
+Clips = Sequence[str | Path] | Mapping[str, str | Path]
+
 _METHODS = ("saliency", "scs", "uniform")
 
 
 def prepare_study(
-    clips: Sequence[str | Path] = _CLIPS,
+    clips: Clips = _CLIPS,
     methods: Sequence[str | Method] = _METHODS,
     *,
+    test_case: str = "methods",
     count: int | None = None,
     ratio: float | None = None,
     seconds: float | None = None,
@@ -41,10 +44,12 @@ def prepare_study(
 
     Parameters
     ----------
-    clips : sequence of str or path-like
-        Data sets' names or files' paths.
+    clips : sequence of str or path-like, or mapping of str to these
+        Data sets' names or files' paths; a mapping tells what tables are to call them.
     methods : sequence of str or Method
         Selectors' names, or selectors with settings and a name of their own.
+    test_case : str
+        What tables call the question that is asked.
     count, ratio : int or float, at most one
         How many keyframes each method gets, or which share of the frames; neither for as many
         as the saliency method finds.
@@ -73,6 +78,7 @@ def prepare_study(
     return StudyPreparation(
         clips,
         methods,
+        test_case=test_case,
         count=count,
         ratio=ratio,
         seconds=seconds,
@@ -91,7 +97,7 @@ class StudyPreparation:
 
     Parameters
     ----------
-    clips, methods, count, ratio, seconds, exercise, title, file, random_state
+    clips, methods, test_case, count, ratio, seconds, exercise, title, file, random_state
         As for :func:`prepare_study`.
 
     Attributes
@@ -104,9 +110,10 @@ class StudyPreparation:
 
     def __init__(
         self,
-        clips: Sequence[str | Path] = _CLIPS,
+        clips: Clips = _CLIPS,
         methods: Sequence[str | Method] = _METHODS,
         *,
+        test_case: str = "methods",
         count: int | None = None,
         ratio: float | None = None,
         seconds: float | None = None,
@@ -120,7 +127,10 @@ class StudyPreparation:
         self.controls = StudyControls(listed, self._selectors.registry.names())
         self._plan = StudyPlan(self.controls)
         self._choose_methods(methods)
-        self.controls.choose([str(clip) for clip in clips])
+        named = clips if isinstance(clips, Mapping) else {}
+        self._plan.names = {str(clip): name for name, clip in named.items()}
+        self._plan.test_case = test_case
+        self.controls.choose([str(clip) for clip in (named.values() if named else clips)])
         self.controls.choose_exercise(None if exercise is None else str(exercise))
         self.controls.set_count(count, ratio)
         self.controls.seconds.value = seconds or 0.0

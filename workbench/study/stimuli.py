@@ -85,8 +85,21 @@ class Clip:
     name: str = ""
 
     @classmethod
-    def from_start(cls, clip: str, motion: Motion, seconds: float | None = None) -> Clip:
+    def from_start(
+        cls, clip: str, motion: Motion, seconds: float | None = None, name: str = ""
+    ) -> Clip:
         """Take a motion, or its first seconds.
+
+        Parameters
+        ----------
+        clip : str
+            A data set's name or a file's path.
+        motion : Motion
+            What is there.
+        seconds : float, optional
+            How much of it to take; by default all.
+        name : str
+            What tables call it; by default as the data set or, without folders, the file.
 
         Raises
         ------
@@ -98,9 +111,9 @@ class Clip:
             frames = min(frames, round(seconds / motion.frame_time))
         if frames < 3:
             raise WorkbenchError(f"{clip}: got {frames} frames to show, want at least 3")
-        # A file is called by its name without folders.
         path = PurePath(clip)
-        return cls(clip, motion[:frames], name=path.stem if path.is_absolute() else clip)
+        usual = path.stem if path.is_absolute() else clip
+        return cls(clip, motion[:frames], name=name or usual)
 
     @property
     def parameters(self) -> dict[str, Any]:
