@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import dataclasses
 import json
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -17,6 +18,7 @@ from workbench.authoring.scene import Scene
 from workbench.dashboards import MotionAuthor, author_motion
 from workbench.datasets import load, load_space
 from workbench.errors import DataError, WorkbenchError
+from workbench.mocap.bvh_writer import write_bvh
 from workbench.projection import project, register_projector
 
 CLIP = "cmu/01_01-jump"
@@ -397,6 +399,28 @@ def test_a_session_of_a_clip_that_has_changed_is_refused(
     with pytest.raises(DataError, match="not the one that the session was made with"):
         author.open_session(path)
     assert author.scene is shown
+
+
+def test_a_session_whose_clip_is_elsewhere_now_goes_on_with_the_clip_that_is_shown(
+    author: MotionAuthor, tmp_path: Path
+) -> None:
+    """Without the clip the message says what to do; a clip of the same content will do."""
+    old, new = tmp_path / "old.bvh", tmp_path / "new.bvh"
+    write_bvh(load(CLIP), old)
+    author.open(old)
+    saved = author.scene
+    path = author.save(tmp_path / "jump.session.json")
+    for _ in range(2):
+        author.undo()
+    old.rename(new)
+    author.open(OTHER)
+    author.open_session(path)
+    assert "open the session's clip first" in author.message
+    assert author.scene.clip == OTHER
+    author.open(new)
+    author.open_session(path)
+    assert author.message == ""
+    assert author.scene.equals(dataclasses.replace(saved, clip=str(new)))
 
 
 def test_bvh_reads_back_as_the_motion(author: MotionAuthor, first: Scene, tmp_path: Path) -> None:

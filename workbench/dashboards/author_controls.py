@@ -44,8 +44,8 @@ class AuthorControls(DataControls):
         Path of a session's file.
     open_session : ipywidgets.Button
         To open it.
-    start, edits, opening : ipywidgets.Widget
-        The controls of the clip and its markers, of edits, and of sessions to open.
+    start, edits : ipywidgets.Widget
+        The controls of the clip and its markers, and of edits.
     """
 
     def __init__(
@@ -65,7 +65,6 @@ class AuthorControls(DataControls):
             ]
         )
         self.edits = control_row([self.refine, self.kernel, self.follow])
-        self.opening = control_row([self.session, self.open_session])
 
     def offer(self, selectors: Sequence[str], projectors: Sequence[str]) -> None:
         """List methods, those registered meanwhile among them."""
@@ -141,7 +140,7 @@ class AuthorControls(DataControls):
             placeholder="path of a session's file",
             description="Session",
             style=FITTING,
-            layout=widgets.Layout(flex="1 1 260px", max_width="420px"),
+            layout=widgets.Layout(flex="1 1 220px", max_width="420px"),
         )
         self.open_session = widgets.Button(
             description="Open",

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from workbench.authoring import Scene, Session, edits
+from workbench.authoring.session_file import clip_fingerprint
 from workbench.dashboards.author_controls import AuthorControls
 from workbench.dashboards.author_edits import BEST, Edited, edited
 from workbench.dashboards.author_files import KINDS, content, file_stem
@@ -180,11 +182,14 @@ class LiveAuthor:
 
     def open_session(self, session: Session, path: str) -> None:
         """Go on with a session of a file; refuse it if its clip is here and is another one."""
+        self.refusal = self.trouble = ""
         self.state.drop_failed()
         scene, shown = session.scene, self.state.clip
         label = f"open {Path(path).name}"
         step = Step(f"scene = read_session({path!r}).scene", None)
-        # A clip of that name may be in memory only, where nothing else could find it.
+        # A clip that is shown may be in memory only, or have had another path elsewhere.
+        if shown is not None and clip_fingerprint(shown.space.motion) == session.fingerprint:
+            scene = replace(scene, clip=shown.source.name)
         same = shown is not None and shown.source.name == scene.clip
         source = shown.source if shown is not None and same else source_of(scene.clip)
         clip = self.state.clip_of(source)

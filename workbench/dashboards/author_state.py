@@ -201,6 +201,8 @@ class AuthorState:
         for job, failure in self.failures.items():
             if isinstance(job, Source):
                 words = failure if failure.startswith(job.name) else f"{job.name}: {failure}"
+                if isinstance(self.wanted, Opening):
+                    words += "; open the session's clip first if it is elsewhere now"
                 told.append(words + shown)
             elif isinstance(job, Placing):
                 told.append(f"placing markers: {failure}" + "; shown as before" * bool(shown))

@@ -199,7 +199,7 @@ class AuthorView:
     def _laid_out(self, controls: AuthorControls) -> widgets.Widget:
         for view in (self.pad, self.feet):
             view.layout = widgets.Layout(width="100%", min_width="0")
-        self.files.layout = widgets.Layout(flex="1 1 330px", min_width="0")
+        self.files.layout = widgets.Layout(flex="1 1 440px", min_width="0")
         self._feet_words.layout = widgets.Layout(flex="1 1 300px", min_width="0")
         return widgets.VBox(
             [
@@ -210,8 +210,8 @@ class AuthorView:
                 controls.edits,
                 control_row([controls.keep_feet, self._feet_words]),
                 self.feet,
-                control_row([self.files, self.title, self.text]),
-                controls.opening,
+                control_row([self.files, controls.session, controls.open_session]),
+                control_row([self.title, self.text]),
                 self._code.view,
             ],
             layout=widgets.Layout(width="100%"),
@@ -281,8 +281,8 @@ def _about_feet(slide: FootSlide, kept: bool) -> str:
         f"{_rounded(speed.mean())} in the mean, {_rounded(speed.max())} at most"
         for speed in (slide.before, slide.after)
     )
-    words = f"as rebuilt {before}; kept where it stands {after} (units of the file per s)"
-    return remark("Sliding of the supporting foot", words + "; shown kept" * kept)
+    words = f"as rebuilt {before}; if it is kept {after}; in units of the file per s"
+    return remark("Supporting foot slides", words + "; it is kept" * kept)
 
 
 def _rounded(speed: float) -> str:
