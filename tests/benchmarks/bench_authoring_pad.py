@@ -24,8 +24,8 @@ FRAMES = 1000
 SCRUB, DRAG = 0.004, 0.016
 
 _NOTE = (
-    "one pixel of each canvas read back within the time, so that drawing counts; Chromium draws "
-    "without a graphics card"
+    "one pixel of each canvas that is drawn on read back within the time; Chromium draws without a "
+    "graphics card"
 )
 
 # Milliseconds of each step of the mouse, as events bring it: without a button or with a marker.
@@ -35,7 +35,7 @@ _STEPS = """
   pad.model.set("editable", true);
   pad.model.set("mode", drags ? "markers" : "scrub");
   const { plot, base, top } = pad.plane;
-  const canvases = [base, top, pad.pose.canvas];
+  const canvases = drags ? [base, top, pad.pose.canvas] : [top, pad.pose.canvas];
   const box = base.getBoundingClientRect();
   const send = (type, [x, y]) => plot.dispatchEvent(new PointerEvent(type, {
     clientX: box.left + x, clientY: box.top + y, pointerId: 1, buttons: 1, bubbles: true }));

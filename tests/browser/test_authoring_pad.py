@@ -69,6 +69,21 @@ def test_leaving_the_plane_shows_the_time_again(mount: Callable) -> None:
     assert page.evaluate(f"[{PAD}.atTime, {PAD}.place]") == [True, MARKERS[2].tolist()]
 
 
+def test_a_clicked_place_is_kept_in_view(mount: Callable) -> None:
+    """It comes back when the mouse has left, a marker is added there; Escape lets it go."""
+    page = mount(pad())
+    page.mouse.click(*pixel(page, [5.0, 8.0]))
+    kept = page.evaluate(f"{PAD}.place")
+    page.mouse.move(*pixel(page, [15.0, 2.0]))
+    page.mouse.move(1, 1)
+    assert page.evaluate(f"[{PAD}.place, {PAD}.atTime]") == [kept, False]
+    page.get_by_role("button", name="Add a marker").click()
+    assert [edit(page)["kind"], edit(page)["at"]] == ["add", kept]
+    page.mouse.click(*pixel(page, [12.0, 8.0]))
+    page.keyboard.press("Escape")
+    assert page.evaluate(f"[{PAD}.pinned, {PAD}.atTime]") == [None, True]
+
+
 def test_a_click_on_the_trajectory_goes_to_its_time(mount: Callable) -> None:
     """The nearest point's second is shown, and told."""
     page = mount(pad())
@@ -301,7 +316,8 @@ def test_turning_by_keys_is_one_edit(mount: Callable) -> None:
 def test_a_turned_pose_can_be_a_new_marker(mount: Callable, choice: str, place: Any) -> None:
     """It goes where was looked at or where the optimizer wants; the old marker stays."""
     page = mount(pad(mode="markers", selected=1))
-    page.evaluate(f"{PAD}.look([7, 3])")
+    page.evaluate(f"{PAD}.pin([7, 3])")
+    page.mouse.move(1, 1)
     page.get_by_label("Joint", exact=True).select_option("2")
     page.get_by_label("What turning changes").select_option(choice)
     field = page.get_by_label("Degrees about x")
@@ -371,6 +387,37 @@ def test_feet_of_python_move_the_root(mount: Callable) -> None:
     page.evaluate(f"{PAD}.look([20, 10])")
     root = page.evaluate(f"[...{PAD}.pose.shown].slice(0, 3)")
     assert root == pytest.approx([20, 10, 10])
+
+
+def test_it_plays_on_while_a_marker_is_dragged(mount: Callable) -> None:
+    """The pose stays the clock's, on the trajectory that follows the marker."""
+    page = mount(pad(mode="markers"))
+    page.evaluate(f"{PAD}.seek(1.0)")
+    page.evaluate(f"{PAD}.play(true); cancelAnimationFrame({PAD}.request)")
+    start = pixel(page, MARKERS[1])
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(start[0] + 30, start[1] - 40, steps=3)
+    page.evaluate(f"{PAD}.tick(1e6); cancelAnimationFrame({PAD}.request)")
+    moved = array(page, "markers")[2:4].tolist()
+    assert moved != MARKERS[1].tolist()
+    assert page.evaluate(f"[{PAD}.atTime, {PAD}.place]") == [True, moved]
+    page.mouse.up()
+
+
+def test_views_of_one_channel_show_the_same_frame(mount: Callable) -> None:
+    """A frame announced elsewhere is gone to, and the pad announces its own."""
+    page = mount(pad(channel="one"))
+    page.evaluate(
+        "document.addEventListener('workbench-hover', (e) => (window.told = e.detail.sample))"
+    )
+    page.evaluate(f"{PAD}.seek(2.5)")
+    assert page.evaluate("window.told") == 25
+    page.evaluate(
+        "document.dispatchEvent(new CustomEvent('workbench-hover', "
+        "{detail: {channel: 'one', sample: 10}}))"
+    )
+    assert page.evaluate(f"{PAD}.time") == pytest.approx(1.0)
 
 
 def test_a_dragged_handle_changes_the_timing(mount: Callable) -> None:

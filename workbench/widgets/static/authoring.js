@@ -31,7 +31,7 @@ class AuthoringPad extends PadClock {
     onTraits(model, ["mode", "undo_label", "redo_label", "editable", "message", "loop", "speed", "show_ghost"], () => this.showControls(), signal);
     onTraits(model, ["radius"], () => model.get("radius") > 0 && this.setRadius(model.get("radius")), signal);
     onTraits(model, ["time"], () => model.get("time") !== this.time && this.seek(model.get("time")), signal);
-    onHover(model, (frame) => !this.announcing && frame >= 0 && this.scene && this.seek(this.timeOf(frame)), signal);
+    onHover(model, (frame) => !this.announcing && frame >= 0 && this.scene && this.scrub(this.timeOf(frame), false), signal);
     watchTheme(() => this.redraw(), signal);
     const observer = new ResizeObserver(() => this.plane.plot.clientWidth !== this.plane.width && this.redraw());
     observer.observe(root);
@@ -64,6 +64,7 @@ class AuthoringPad extends PadClock {
     const newBody = first || ["parents", "ghost", "sides", "head"].some((name) => this.model.get(name) !== this.seen[name]);
     this.seen = Object.fromEntries(["parents", "ghost", "sides", "head"].map((name) => [name, this.model.get(name)]));
     this.scene = scene;
+    if (newBody) this.pinned = null;
     if (newBody) this.radius = this.model.get("radius") || radiusAt(scene, 0.45);
     if (this.atTime) this.time = first ? this.model.get("time") : this.time;
     this.time = Math.max(scene.start, Math.min(scene.start + scene.duration, this.time));
@@ -107,6 +108,7 @@ class AuthoringPad extends PadClock {
 
   change(name, value) {
     if (this.holding) this.input.abandon();
+    this.hovered = -1;
     this.save(name, value);
     this.showControls();
   }
@@ -169,6 +171,7 @@ class AuthoringPad extends PadClock {
     const [rotations, root] = [[...pose.rotations], [...pose.root]];
     scene.addMarker(at, frame >= 0 ? frame : null, rotations, root);
     this.selected = scene.count - 1;
+    this.pin(null);
     this.look(at);
     this.showSelected();
     this.words.say("marker added");
@@ -206,22 +209,6 @@ class AuthoringPad extends PadClock {
     this.plane.fit(this.scene);
     this.drawBase();
     this.drawTop();
-  }
-
-  // What is looked at.
-
-  /** Show the pose at a place of the plane; while playing, the clock's goes before. */
-  look(place) {
-    if (this.playing && !this.holding) return this.drawTop();
-    this.place = place;
-    this.atTime = false;
-    this.drawMoving();
-  }
-
-  /** Show the pose at the time again. */
-  lookAway() {
-    this.hovered = -1;
-    if (this.scene && !this.playing) this.seek(this.time);
   }
 
   // Pictures.
@@ -269,6 +256,7 @@ class AuthoringPad extends PadClock {
     const { hand, hovered, selected, theme } = this;
     this.plane.drawTop(this.scene, {
       place: this.atTime ? null : this.place,
+      pinned: this.pinned,
       now: this.scene.placeAt(this.time),
       hovered, selected, theme,
       stretch: hand.stretch,

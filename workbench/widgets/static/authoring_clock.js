@@ -1,10 +1,10 @@
-// The pad's clock: which time is shown, and how it passes.
+// What is looked at: a time, and how it passes, or a place aside of the trajectory.
 
 const LEAP = 0.25; // seconds that may pass between two pictures before time waits
 
 class PadClock {
   constructor(model) {
-    Object.assign(this, { model, scene: null, time: 0, atTime: true, place: [0, 0], playing: false, request: 0 });
+    Object.assign(this, { model, scene: null, time: 0, atTime: true, place: [0, 0], pinned: null, playing: false, request: 0 });
   }
 
   timeOf(frame) {
@@ -15,6 +15,7 @@ class PadClock {
     on = on && this.scene !== null;
     if (on === this.playing) return;
     this.playing = on;
+    if (on) this.pinned = null;
     this.clock.showControls();
     cancelAnimationFrame(this.request);
     if (!on) return this.save("time", this.time);
@@ -61,10 +62,34 @@ class PadClock {
 
   scrub(time, done) {
     this.pause();
+    this.pinned = null;
     this.seek(time, done);
   }
 
   step(frames) {
     this.scrub(this.timeOf(this.scene.frameAt(this.time) + frames), true);
+  }
+
+  /** Show the pose at a place of the plane; while playing, the clock's goes before. */
+  look(place) {
+    if (this.playing) return this.drawTop();
+    this.place = place;
+    this.atTime = false;
+    this.drawMoving();
+  }
+
+  /** Keep a place in view until another is, or time goes on; null lets it go. */
+  pin(place) {
+    this.pinned = place;
+    if (place) this.look(place);
+    else this.lookAway();
+  }
+
+  /** Show the kept place, or else the pose at the time again. */
+  lookAway() {
+    this.hovered = -1;
+    if (!this.scene || this.playing) return;
+    if (this.pinned) this.look(this.pinned);
+    else this.seek(this.time);
   }
 }

@@ -6,7 +6,7 @@ const SETTLING = 250; // milliseconds until frames are where markers put them
 
 class MarkerHand extends Hand {
   hint =
-    "Drag a marker: the frames follow. Double-click, or A, adds one; Delete removes the selected one. Arrow keys lead from marker to marker; Enter picks one up and drops it, Escape puts it back.";
+    "Drag a marker: the frames follow. Double-click, or A, adds one; a click keeps a place in view for it; Delete removes the selected one. Arrow keys lead from marker to marker; Enter picks one up and drops it, Escape puts it back.";
 
   hover(at) {
     const marker = this.pad.plane.nearestMarker(this.scene, at);
@@ -29,9 +29,11 @@ class MarkerHand extends Hand {
     this.put(this.pad.plane.toPlace([px + x - at[0], py + y - at[1]]));
   }
 
-  release() {
+  release(at) {
+    const { marker } = this.pressed ?? {};
     this.pressed = null;
     if (this.held) this.drop();
+    else if (marker < 0) this.pad.pin(this.pad.plane.toPlace(at));
   }
 
   abandon() {

@@ -47,13 +47,13 @@ class Hand {
 
   key(event) {
     if (!(event.key in PAD_ARROWS)) return false;
-    this.pad.look(this.nudge(event));
+    this.pad.pin(this.nudge(event));
     return true;
   }
 }
 
 class ScrubHand extends Hand {
-  hint = "Move the mouse, or use the arrow keys (Shift: by one pixel), to see the pose at any place. Click the trajectory to go to that time.";
+  hint = "Move the mouse, or use the arrow keys (Shift: by one pixel), to see the pose at any place. A click keeps the place in view, Escape lets it go; a click on the trajectory goes to that time.";
 
   press(at) {
     this.pad.pause();
@@ -66,7 +66,8 @@ class ScrubHand extends Hand {
 
   release(at) {
     const index = this.pad.plane.nearestOn(this.scene.points, at);
-    if (index >= 0) this.pad.seek(this.scene.times[index], true);
+    if (index >= 0) this.pad.scrub(this.scene.times[index], true);
+    else this.pad.pin(this.pad.plane.toPlace(at));
   }
 }
 

@@ -113,6 +113,7 @@ class PadInput {
   act(event) {
     const { pad } = this;
     if (event.key === "Escape" && (pad.holding || this.pressed)) return this.abandon() ?? true;
+    if (event.key === "Escape" && pad.pinned) return pad.pin(null) ?? true;
     if (event.target === pad.plane.plot && (pad.hand.key(event) || this.look(event))) return true;
     if (event.target === pad.clock.curve.canvas && pad.clock.curve.key(event)) return true;
     if (event.target === pad.clock.bar.canvas && this.seek(event)) return true;

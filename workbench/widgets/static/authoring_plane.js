@@ -136,7 +136,7 @@ class PadPlane extends PlaneView {
   }
 
   /** Draw what follows the mouse and the clock. */
-  drawTop(scene, { place, now, hovered, selected, stretch, pen, theme }) {
+  drawTop(scene, { place, pinned, now, hovered, selected, stretch, pen, theme }) {
     const context = emptied(this.top, this.width, this.height);
     context.lineCap = context.lineJoin = "round";
     if (stretch) this.drawStretch(context, scene, stretch, theme);
@@ -147,6 +147,7 @@ class PadPlane extends PlaneView {
       context.stroke();
     }
     if (now) this.drawNow(context, now, theme);
+    if (pinned) this.drawPin(context, pinned, theme);
     if (place) this.drawCross(context, place, theme);
     const named = hovered >= 0 ? hovered : selected;
     if (named >= 0 && named < scene.count) {
@@ -168,6 +169,17 @@ class PadPlane extends PlaneView {
       context.arc(x, y, r, 0, 2 * Math.PI);
       context.fillStyle = colour;
       context.fill();
+    }
+  }
+
+  /** The place that is kept in view. */
+  drawPin(context, place, theme) {
+    for (const [colour, width] of [[theme.ground, 5], [theme.text, 2]]) {
+      context.beginPath();
+      context.arc(...this.toPixel(place), 6, 0, 2 * Math.PI);
+      context.strokeStyle = colour;
+      context.lineWidth = width;
+      context.stroke();
     }
   }
 

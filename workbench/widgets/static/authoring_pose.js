@@ -128,9 +128,10 @@ class PadPose {
     if (!this.start) return;
     const { pad, joint, angles } = this;
     const { marker } = this.start;
-    const place = { "": null, here: pad.place, best: "best" }[this.places.value];
+    const place = { "": null, here: pad.pinned ?? pad.place, best: "best" }[this.places.value];
     const none = angles.every((v) => v === 0);
     this.start = this.preview = null;
+    if (place === pad.pinned) pad.pinned = null;
     pad.letGo(none);
     this.setAngles([0, 0, 0]);
     this.places.value = "";

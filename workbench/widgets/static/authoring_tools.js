@@ -15,7 +15,7 @@ class PadTools {
       button.dataset.mode = mode;
       return button;
     });
-    this.add = this.button("Add marker", "Add a marker at the place looked at (A)", () => pad.addMarker(pad.place));
+    this.add = this.button("Add marker", "Add a marker at the place kept in view, else where the trajectory is now (A)", () => pad.addMarker(pad.pinned ?? pad.place));
     this.remove = this.button("Delete marker", "Delete the selected marker (Delete)", () => pad.removeMarker());
     this.undo = this.button("Undo", "Undo", () => pad.tell("undo"));
     this.redo = this.button("Redo", "Redo", () => pad.tell("redo"));
