@@ -39,12 +39,12 @@ def measurements() -> Iterator[Measurement]:
         below=2.0,
         note=note,
     )
-    yield time_of(f"RBFP alone, {name}", lambda: placed(moved, space), below=0.1)
-    yield time_of(f"influence, {name}", lambda: influence(space, scene.markers), below=0.1)
-    yield time_of(f"playing, {name}", lambda: play(scene, space), below=0.1)
+    yield time_of(f"RBFP alone, {name}", lambda: placed(moved, space), below=0.25)
+    yield time_of(f"influence, {name}", lambda: influence(space, scene.markers), below=0.25)
+    yield time_of(f"playing, {name}", lambda: play(scene, space), below=0.25)
     kept = edits.set_keep_feet(scene, True)
-    yield time_of(f"playing, feet kept, {name}", lambda: play(kept, space), below=0.15)
-    yield time_of(f"foot speeds before and after, {name}", lambda: foot_slide(scene, space), 0.2)
+    yield time_of(f"playing, feet kept, {name}", lambda: play(kept, space), below=0.5)
+    yield time_of(f"foot speeds before and after, {name}", lambda: foot_slide(scene, space), 0.5)
 
 
 def dropped(scene, space, place: np.ndarray) -> Refinement:
