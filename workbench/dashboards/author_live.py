@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from workbench.authoring import Scene, Session, edits
-from workbench.authoring.session_file import clip_fingerprint
 from workbench.dashboards.author_controls import AuthorControls
 from workbench.dashboards.author_edits import BEST, Edited, edited
 from workbench.dashboards.author_files import KINDS, content, file_stem
@@ -21,7 +20,7 @@ from workbench.dashboards.author_view import AuthorView
 from workbench.dashboards.background import Background
 from workbench.dashboards.sources import Source, loaded_here, reread, source_of
 from workbench.dashboards.worker import Worker
-from workbench.errors import WorkbenchError
+from workbench.errors import DataError, WorkbenchError
 
 #: Stands in a script for a scene that was set.
 FROM_PYTHON = "# scene: the one that was set from Python"
@@ -188,7 +187,7 @@ class LiveAuthor:
         label = f"open {Path(path).name}"
         step = Step(f"scene = read_session({path!r}).scene", None)
         # A clip that is shown may be in memory only, or have had another path elsewhere.
-        if shown is not None and clip_fingerprint(shown.space.motion) == session.fingerprint:
+        if shown is not None and _is_of(session, shown):
             scene = replace(scene, clip=shown.source.name)
         same = shown is not None and shown.source.name == scene.clip
         source = shown.source if shown is not None and same else source_of(scene.clip)
@@ -291,6 +290,14 @@ class LiveAuthor:
         if state.clip is not None and (wanted is None or wanted.source in state.failures):
             with self.controls.silence():
                 self.controls.choose(state.clip.source)
+
+
+def _is_of(session: Session, clip: Clip) -> bool:
+    try:
+        session.check(clip.space.motion)
+    except DataError:
+        return False
+    return True
 
 
 def _words(error: Exception) -> str:
