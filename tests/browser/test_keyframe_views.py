@@ -118,6 +118,27 @@ def test_keyframes_found_on_a_foot_are_told_apart(mount: Callable) -> None:
     assert readings[1].endswith("· keyframe, found on a foot")
 
 
+def test_contacts_of_the_right_foot_are_open(mount: Callable) -> None:
+    """As with limbs, colour is not all that tells the sides apart."""
+    widget = curves()
+    widget.contacts = [
+        {"name": side, "side": side, "spans": [[10, 30]]} for side in ("left", "right")
+    ]
+    page = mount(widget)
+    left, right = page.evaluate(
+        f"""() => {{
+          const curves = {_CURVES};
+          const context = curves.base.getContext("2d");
+          const [first, step] = [16, 14]; // pixels, as the module lays its rows out
+          const top = first + curves.rows.length * curves.pitch;
+          return [0, 1].map((row) => [1, 4, 6].map((y) =>
+            [...context.getImageData(curves.xOf(20), top + row * step + y, 1, 1).data]));
+        }}"""
+    )
+    assert left[0] == left[1] == left[2]
+    assert right[0] == right[2] != right[1]
+
+
 def count_curve() -> CountCurve:
     return CountCurve(
         series=[

@@ -59,7 +59,8 @@ def keyframe_svg(kind: str, motion: Motion, keyframes: NDArray[np.intp], name: s
     return line_svg(
         _figure(FILMSTRIP, motion, shown),
         title=f"Keyframes of {name}",
-        description=f"Poses of frames {', '.join(map(str, shown))}, side by side.",
+        description=f"Poses of frames {', '.join(map(str, shown))}, side by side. Left limbs are "
+        "blue, right limbs orange and open, or dashed where they are thin.",
     )
 
 

@@ -13,11 +13,15 @@ from workbench.errors import WorkbenchError
 from workbench.figures.embeddings import Panel
 from workbench.figures.stick_drawing import body_traces
 from workbench.figures.stick_figures import StickFigures
+from workbench.figures.stick_look import limb_width
 from workbench.figures.style import BLACK, GREY, TEMPLATE
 from workbench.figures.trajectories import add_key, trajectory_traces
 from workbench.validation import as_numbers
 
 _LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+
+#: Pixels of a body in a row, about.
+_BODY_TALL = 110
 
 #: Space between poses, and above and below a row, as shares of the body's height.
 _GAP, _AROUND = 0.1, 0.12
@@ -132,7 +136,7 @@ def _draw_poses(figure: go.Figure, name: str, figures: StickFigures, row: int) -
     shifts = np.arange(len(figures))[:, None] * [cell, 0.0] - figures.roots
     shifts[:, 0] -= boxes.mean(axis=1)
     placed = figures.moved(shifts)
-    for trace in body_traces(placed, width=2.6):
+    for trace in body_traces(placed, width=limb_width(_BODY_TALL)):
         figure.add_trace(trace, row=row, col=2)
     low, high = placed.bounds()[:, 0].min(axis=0), placed.bounds()[:, 1].max(axis=0)
     margin = _AROUND * figures.body_height

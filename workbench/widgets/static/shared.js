@@ -83,6 +83,15 @@ function element(tag, attributes = {}, children = []) {
   return node;
 }
 
+/** Fill a bar in the colour of a side of the body; that of the right is open, as its limbs are. */
+function fillSide(context, side, theme, x, y, width, height) {
+  context.fillStyle = { left: theme.palette[0], right: theme.palette[1] }[side] ?? theme.text;
+  context.fillRect(x, y, width, height);
+  if (side !== "right" || width <= 3) return;
+  context.fillStyle = theme.ground;
+  context.fillRect(x + 1.5, y + 1.5, width - 3, height - 3);
+}
+
 /** Give a canvas the pixels of its box and a context in CSS pixels. */
 function fitCanvas(canvas, width, height) {
   const ratio = window.devicePixelRatio || 1;

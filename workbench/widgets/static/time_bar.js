@@ -65,11 +65,10 @@ class TimeBar {
       context.globalAlpha = 0.16;
       context.fillStyle = theme.text;
       context.fillRect(left, y + 2, right - left, 1);
-      context.globalAlpha = 0.9;
-      context.fillStyle = { left: theme.palette[0], right: theme.palette[1] }[side] ?? theme.text;
+      context.globalAlpha = 1;
       for (const [first, last] of spans) {
         const from = Math.max(left, this.xOf(first) - half);
-        context.fillRect(from, y, Math.max(2, Math.min(right, this.xOf(last) + half) - from), 5);
+        fillSide(context, side, theme, from, y, Math.max(2, Math.min(right, this.xOf(last) + half) - from), 6);
       }
     });
     context.globalAlpha = 1;

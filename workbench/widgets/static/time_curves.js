@@ -233,8 +233,7 @@ class TimeCurves {
       const y = top + row * ROWS.foot;
       context.fillStyle = this.theme.text;
       context.fillText(name, 4, y + 4, ROWS.left - 12);
-      context.fillStyle = { left: this.theme.palette[0], right: this.theme.palette[1] }[side] ?? this.theme.text;
-      for (const [first, last] of spans) context.fillRect(this.xOf(first) - half, y + 1, this.xOf(last) - this.xOf(first) + 2 * half, 6);
+      for (const [first, last] of spans) fillSide(context, side, this.theme, this.xOf(first) - half, y + 1, this.xOf(last) - this.xOf(first) + 2 * half, 6);
     });
   }
 
