@@ -25,6 +25,7 @@ from tests.browser.authoring_page import (
 from tests.browser.axe import violations
 from tests.browser.chromium import Visit
 from workbench.authoring.trajectories import Trajectory
+from workbench.widgets.authoring import AuthoringPad
 from workbench.widgets.export import export_html
 
 pytestmark = pytest.mark.browser
@@ -43,6 +44,19 @@ def shown_angle(page: Any) -> float:
     """Degrees about z by which the middle joint of the shown pose is turned."""
     turned = page.evaluate(f"[...{PAD}.scene.poseAt({PAD}.place).rotations]")
     return float(np.degrees(np.arctan2(turned[9 + 3], turned[9])))
+
+
+ARRAYS = [
+    *["offsets", "markers", "marker_poses", "marker_roots", "marker_frames", "influence"],
+    *["embedding", "points", "times", "ghost"],
+]
+
+
+def numbers(widget: AuthoringPad, name: str) -> tuple[str, list[float]]:
+    """Give the kind of array that the browser has of a trait, and its numbers."""
+    values = getattr(widget, name)
+    kind = {"<f8": "Float64Array", "<f4": "Float32Array", "<i4": "Int32Array"}[values.dtype.str]
+    return kind, values.ravel().tolist()
 
 
 # Scrubbing.
@@ -456,6 +470,44 @@ def test_with_shift_all_that_is_later_moves_along(mount: Callable) -> None:
 
 
 # Python's answers.
+
+
+def test_without_a_motion_it_says_so(mount: Callable) -> None:
+    """Nothing can be used, no key does anything; a motion that comes later is shown."""
+    page = mount(AuthoringPad())
+    assert page.locator(".wb-pad-message").inner_text() == "No motion yet."
+    page.mouse.click(200, 200)
+    page.get_by_role("button", name="Play").click(force=True)
+    page.keyboard.press("Tab")
+    page.keyboard.press(" ")
+    assert page.evaluate(f"{PAD}.scene") is None
+    later = pad()
+    plain = ("parents", "sides", "joint_names", "frame_time")
+    page.evaluate(
+        """async ([plain, arrays]) => {
+          const { model } = mounted[0];
+          for (const [name, value] of Object.entries(plain)) model.set(name, value);
+          for (const [name, [kind, values]] of Object.entries(arrays)) {
+            model.set(name, new DataView(globalThis[kind].from(values).buffer));
+          }
+          await null;
+        }""",
+        [
+            {name: getattr(later, name) for name in plain},
+            {name: numbers(later, name) for name in ARRAYS},
+        ],
+    )
+    assert page.evaluate(f"{PAD}.scene.count") == 4
+    assert page.locator(".wb-pad-message").inner_text() == ""
+
+
+def test_a_function_that_cannot_be_fitted_is_told(mount: Callable) -> None:
+    """A sentence says why there is no pose, and nothing else breaks."""
+    page = mount(pad(kernel="none such"))
+    text = page.locator(".wb-pad-message").inner_text()
+    assert text.startswith("No pose can be computed: there is no kernel none such.")
+    page.mouse.move(*pixel(page, MARKERS[1]))
+    play_for(page, 0.5)
 
 
 def test_no_other_state_is_shown_before_the_answer(mount: Callable) -> None:

@@ -11,7 +11,7 @@ const SCENE_TRAITS = [
 class AuthoringPad extends PadClock {
   constructor(model, root, signal) {
     super(model);
-    Object.assign(this, { root, signal, hovered: -1, selected: -1, holding: false, waiting: false, pending: 0, sent: 0, queue: [], radius: 0 });
+    Object.assign(this, { root, signal, hovered: -1, selected: -1, holding: false, pending: 0, sent: 0, queue: [], radius: 0 });
     const hintId = `wb-hint-${Math.random().toString(36).slice(2)}`;
     this.tools = new PadTools(this, signal);
     this.plane = new PadPlane(hintId);
@@ -23,6 +23,7 @@ class AuthoringPad extends PadClock {
     const under = element("div", { class: "wb-bar wb-pad-under" }, [this.words.readout, this.tools.radius]);
     const left = element("div", { class: "wb-pad-left" }, [this.plane.plot, under, this.words.legend]);
     const views = element("div", { class: "wb-pad-views" }, [left, this.pose.node]);
+    this.parts = [this.tools.node, views, this.clock.node];
     root.append(this.tools.node, views, this.words.message, this.clock.node, this.words.hint, this.words.live);
     this.input = new PadInput(this, signal);
     this.arrive();
@@ -50,8 +51,7 @@ class AuthoringPad extends PadClock {
   arrive() {
     const answered = this.model.get("answered");
     if (answered >= this.sent) this.sendNext();
-    this.waiting = this.holding || answered < this.pending;
-    if (!this.waiting) this.read();
+    if (!this.holding && answered >= this.pending) this.read();
   }
 
   read() {
@@ -65,7 +65,8 @@ class AuthoringPad extends PadClock {
     this.seen = Object.fromEntries(["parents", "ghost", "sides", "head"].map((name) => [name, this.model.get(name)]));
     this.scene = scene;
     if (newBody) this.pinned = null;
-    if (newBody) this.radius = this.model.get("radius") || radiusAt(scene, 0.45);
+    const radius = newBody ? this.model.get("radius") || radiusAt(scene, 0.45) : this.radius;
+    this.radius = sensibleRadius(scene, radius);
     if (this.atTime) this.time = first ? this.model.get("time") : this.time;
     this.time = Math.max(scene.start, Math.min(scene.start + scene.duration, this.time));
     if (this.atTime) this.place = scene.placeAt(this.time);
@@ -123,6 +124,7 @@ class AuthoringPad extends PadClock {
   letGo(putBack = false) {
     this.holding = false;
     if (putBack) return this.arrive();
+    this.radius = sensibleRadius(this.scene, this.radius);
     this.clock.read(this.scene);
     this.redraw();
   }
@@ -192,7 +194,7 @@ class AuthoringPad extends PadClock {
 
   setRadius(radius) {
     if (!this.scene) return;
-    this.radius = radiusAt(this.scene, Math.max(0, Math.min(1, partOfRadius(this.scene, radius))));
+    this.radius = sensibleRadius(this.scene, radius);
     this.tools.show();
     this.drawTop();
   }
@@ -228,6 +230,7 @@ class AuthoringPad extends PadClock {
     this.plane.resize();
     this.pose.resize();
     this.words.describe();
+    for (const part of this.parts) part.inert = !this.scene;
     if (!this.scene) return;
     this.drawBase();
     this.drawMoving();

@@ -97,6 +97,11 @@ function partOfRadius(scene, radius) {
   return 1 - Math.log(radius / longestRadius(scene)) / Math.log(SHORTEST_RADIUS);
 }
 
+/** The nearest radius that makes sense on a trajectory. */
+function sensibleRadius(scene, radius) {
+  return Math.max(radiusAt(scene, 0), Math.min(radiusAt(scene, 1), radius));
+}
+
 function longestRadius(scene) {
   return lengthsAlong(scene.points).at(-1) || 1;
 }
@@ -159,12 +164,13 @@ class DeformHand extends Hand {
 
   drop() {
     const { index, to, from, pad } = this;
+    const { radius } = pad; // before it is fitted to the new curve
     this.held = false;
     if (to[0] === from[0] && to[1] === from[1]) return pad.letGo(true);
     pad.letGo();
     pad.words.say("trajectory deformed");
-    pad.model.set("radius", pad.radius); // goes with the edit
-    pad.tell("deform", { index, to, radius: pad.radius });
+    pad.model.set("radius", radius); // goes with the edit
+    pad.tell("deform", { index, to, radius });
   }
 
   wheel(delta) {

@@ -20,6 +20,7 @@ class FittedRadial {
     const outputs = values.length / (points.length / 2);
     Object.assign(this, { n, nodes, middle, size, merged: places.merged, rows: places.values, result: new Float64Array(outputs) });
     this.width = KERNELS_WITH_WIDTH.includes(kernel) ? (epsilon ? epsilon * size : usualEpsilon(nodes)) : 1;
+    if (!(kernel in KERNEL_SIGNS)) throw new Error(`there is no kernel ${kernel}`);
     this.phi = RADIAL_KERNELS[kernel];
     this.sign = KERNEL_SIGNS[kernel];
     this.matrix = new Float64Array(n * n);
