@@ -19,7 +19,11 @@ from workbench.dashboards import MotionAuthor, author_motion
 from workbench.datasets import load, load_space
 from workbench.errors import DataError, WorkbenchError
 from workbench.mocap.bvh_writer import write_bvh
+from workbench.mocap.motion import Motion
+from workbench.mocap.rotations import axis_rotation
+from workbench.mocap.skeleton import ROTATION_CHANNELS, EndSite, Skeleton
 from workbench.projection import project, register_projector
+from workbench.spaces import PoseSpace
 
 CLIP = "cmu/01_01-jump"
 OTHER = "cmu/01_03-walk"
@@ -239,13 +243,38 @@ def test_feet_are_kept_and_their_speed_is_shown(author: MotionAuthor) -> None:
     )
     slide = foot_slide(author.scene, author.space)
     before, after = np.reshape(author.view.feet.values, (2, -1))
-    np.testing.assert_allclose(before, slide.before, atol=1e-4)
+    centimetres = author.space.motion.skeleton.unit_cm
+    np.testing.assert_allclose(before, slide.before * centimetres, rtol=1e-5, atol=1e-4)
     assert before.max() > 1.0
-    np.testing.assert_allclose(after, slide.after, atol=1e-4)
+    np.testing.assert_allclose(after, slide.after * centimetres, rtol=1e-5, atol=1e-4)
     assert author.view.pad.undo_label == "keep the feet"
     author.undo()
     assert not author.controls.keep_feet.value
     assert len(author.view.pad.roots) == 0
+
+
+def test_a_body_without_feet_is_told_of_and_can_be_authored(author: MotionAuthor) -> None:
+    """The switch goes back, the reason is said, and everything else works."""
+    joints = ("hip", "waist", "neck")
+    skeleton = Skeleton(
+        joints,
+        np.array([-1, 0, 1]),
+        np.array([[0.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, 0.0]]),
+        (EndSite(2, np.array([0.0, 1.0, 0.0])),),
+        (ROTATION_CHANNELS,) * 3,
+    )
+    turns = np.linspace(0.0, 90.0, 40)[:, None] * [0.2, 1.0, -0.7]
+    bones = Motion(skeleton, axis_rotation("Z", turns), np.zeros((40, 3)), 1 / 30, name="bones")
+    author.open(PoseSpace(bones))
+    assert author.scene.clip == "bones"
+    assert author.message == ""
+    assert "no speed of the feet" in author.view.feet.message
+    author.controls.keep_feet.value = True
+    assert "feet" in author.message
+    assert not author.controls.keep_feet.value
+    assert not author.scene.keep_feet
+    do(author, "remove", marker=0)
+    assert author.message == ""
 
 
 def test_controls_follow_the_scene(author: MotionAuthor, first: Scene) -> None:
@@ -453,7 +482,7 @@ def test_what_the_browser_asks_for_is_sent(
     def fail(*_: object) -> None:
         raise WorkbenchError("no room")
 
-    monkeypatch.setattr("workbench.dashboards.author_live.content", fail)
+    monkeypatch.setattr("workbench.dashboards.author_events.content", fail)
     files._handle_custom_msg({"want": "bvh"}, [])
     assert sent[-1][0]["failure"] == "no room"
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from workbench.authoring import read_session, session_from_bytes
-from workbench.dashboards.author_files import KINDS
-from workbench.dashboards.author_live import LiveAuthor
+from workbench.dashboards.author_files import KINDS, content, file_stem
+from workbench.dashboards.author_live import LiveAuthor, in_words
 from workbench.dashboards.home import Home
 from workbench.dashboards.sources import source_of
 
@@ -39,10 +39,21 @@ class AuthorEvents:
 
     def _on_file(self, _: Any, message: dict[str, Any], buffers: list[memoryview]) -> None:
         if message.get("want") in KINDS:
-            self._live.answer_file(message["want"])
+            self._give(message["want"])
         elif message.get("given") and buffers:
             name, made = str(message.get("name")), bytes(buffers[0])
-            self._live.try_session(lambda: session_from_bytes(made, name), name)
+            live = self._live
+            live.attempt(lambda: live.open_session(session_from_bytes(made, name), name))
+
+    def _give(self, want: str) -> None:
+        live, files = self._live, self._live.view.files
+        try:
+            made = content(want, live.clip, live.scene, live.view)
+        except Exception as error:  # the person must be told, whatever it is
+            files.fail(want, in_words(error))
+            return
+        ending, kind = KINDS[want]
+        files.give(want, f"{file_stem(live.scene.clip)}{ending}", made, kind)
 
     def _on_clip(self, change: Any) -> None:
         if not self._controls.quiet:
@@ -58,7 +69,7 @@ class AuthorEvents:
 
     def _on_keep_feet(self, change: Any) -> None:
         if not self._controls.quiet and self._live.state.scene is not None:
-            self._live.keep_feet(change["new"])
+            self._live.attempt(lambda: self._live.keep_feet(change["new"]))
 
     def _on_kernel(self, change: Any) -> None:
         if not self._controls.quiet and self._live.state.scene is not None:
@@ -71,4 +82,4 @@ class AuthorEvents:
     def _on_session(self) -> None:
         path = self._controls.session.value.strip()
         if path:
-            self._live.try_session(lambda: read_session(path), path)
+            self._live.attempt(lambda: self._live.open_session(read_session(path), path))

@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from workbench.authoring import Scene, Session, edits
+from workbench.authoring import Scene, Session, edits, play
 from workbench.dashboards.author_controls import AuthorControls
 from workbench.dashboards.author_edits import BEST, Edited, edited
-from workbench.dashboards.author_files import KINDS, content, file_stem
 from workbench.dashboards.author_jobs import Clip, Job, Methods, Placing, Posing
 from workbench.dashboards.author_session import AuthorSession
 from workbench.dashboards.author_state import AuthorState, Opening, Step
@@ -129,7 +128,7 @@ class LiveAuthor:
             else:
                 self.do(edited(self.scene, self.clip.space, edit))
         except Exception as error:  # the pad waits for an answer, whatever went wrong
-            self.refusal = _words(error)
+            self.refusal = in_words(error)
             self.wake()
 
     def follow_clip(self) -> None:
@@ -138,10 +137,11 @@ class LiveAuthor:
         self.do(Edited(edits.follow_clip(self.scene), "back to the clip's curve", code))
 
     def keep_feet(self, keep: bool) -> None:
-        """Choose whether the feet are kept from sliding."""
+        """Choose whether the feet are kept from sliding; refuse it where no feet are found."""
+        scene = edits.set_keep_feet(self.scene, keep)
+        play(scene, self.clip.space)
         label = "keep the feet" if keep else "let the feet slide"
-        code = f"scene = edits.set_keep_feet(scene, {bool(keep)})"
-        self.do(Edited(edits.set_keep_feet(self.scene, keep), label, code))
+        self.do(Edited(scene, label, f"scene = edits.set_keep_feet(scene, {keep})"))
 
     def set_kernel(self, kernel: str, epsilon: float | None = None) -> None:
         """Choose the radial function between key poses."""
@@ -171,10 +171,10 @@ class LiveAuthor:
         elif clip is not None:
             self.want_placing(reread(clip.source))
 
-    def try_session(self, read: Callable[[], Session], path: str) -> None:
-        """Read a session and go on with it; say why if that cannot be."""
+    def attempt(self, act: Callable[[], None]) -> None:
+        """Do something, or say in words why it cannot be done."""
         try:
-            self.open_session(read(), path)
+            act()
         except WorkbenchError as error:
             self.trouble = str(error)
             self.wake()
@@ -198,17 +198,6 @@ class LiveAuthor:
             session.check(clip.space.motion)
             self.state.do(label, scene, step, clip=clip, moved=False)
         self.wake()
-
-    def answer_file(self, want: str) -> None:
-        """Give the person a file."""
-        try:
-            scene = self.scene
-            made = content(want, self.clip, scene, self.view)
-        except Exception as error:  # the person must be told, whatever it is
-            self.view.files.fail(want, _words(error))
-            return
-        ending, kind = KINDS[want]
-        self.view.files.give(want, f"{file_stem(scene.clip)}{ending}", made, kind)
 
     def recompute(self) -> None:
         """Compute what failed or was cancelled, or else let the optimizer run again."""
@@ -260,6 +249,7 @@ class LiveAuthor:
         scene, played = state.history.scene, state.played
         kept = played if scene.keep_feet else None
         now = (scene, kept, self._answered, self.refusal)
+        self._show_controls(scene)
         if now != self._shown or selected is not None:
             self._shown = now
             self.view.show(
@@ -271,8 +261,7 @@ class LiveAuthor:
                 message=self.refusal,
             )
             self.view.show_code(state.code)
-            self._show_controls(scene)
-        self.view.show_feet(scene, played)
+        self.view.show_feet(state.clip, scene, played)
 
     def _show_controls(self, scene: Scene) -> None:
         own = edits.follow_clip(scene).trajectory
@@ -300,5 +289,6 @@ def _is_of(session: Session, clip: Clip) -> bool:
     return True
 
 
-def _words(error: Exception) -> str:
+def in_words(error: Exception) -> str:
+    """Say what went wrong; what is not ours says its kind, too."""
     return str(error) if isinstance(error, WorkbenchError) else f"{type(error).__name__}: {error}"

@@ -10,7 +10,7 @@ import ipywidgets as widgets
 import numpy as np
 from numpy.typing import NDArray
 
-from workbench.authoring import FootSlide, History, Scene, influence
+from workbench.authoring import History, Scene, influence
 from workbench.dashboards.author_controls import AuthorControls
 from workbench.dashboards.author_jobs import Clip, Played, Refined
 from workbench.dashboards.code_cell import CodeControls
@@ -27,7 +27,7 @@ _channels = itertools.count(1)
 
 _BEFORE, _AFTER = "foot as rebuilt", "foot kept"
 
-#: Speeds below it, in file units per second, are rounding errors.
+#: Speeds below it are rounding errors, whatever their unit.
 _STANDS = 1e-6
 
 _OFFERS = [
@@ -131,26 +131,28 @@ class AuthorView:
             pad.answered = answered
         self.files.enabled = True
 
-    def show_feet(self, scene: Scene, played: Played | None) -> None:
+    def show_feet(self, clip: Clip, scene: Scene, played: Played | None) -> None:
         """Show how fast the supporting foot is, before and after it is kept from sliding."""
         if played is None or played is self._played:
             return
         self._played = played
         slide = played.slide
-        curves = {} if slide is None else {_BEFORE: slide.before, _AFTER: slide.after}
-        values = np.array(list(curves.values()), dtype=np.float32)
+        size = clip.space.motion.skeleton.unit_cm
+        unit = "units per s" if size is None else "cm per s"
+        speeds = [] if slide is None else [slide.before, slide.after]
+        values = np.array(speeds, dtype=np.float32) * (size or 1.0)
         values[values < _STANDS] = 0.0
         top = float(values.max()) if values.size else 0.0  # one scale for both
         with self.feet.hold_sync():
             self.feet.rows = [
-                {"name": name, "kind": "amount", "unit": "units per s", "top": top}
-                for name in curves
+                {"name": name, "kind": "amount", "unit": unit, "top": top}
+                for name in (_BEFORE, _AFTER)[: len(values)]
             ]
             self.feet.values = values
             self.feet.weights = self.feet.candidates = np.zeros(values.shape)
             self.feet.frame_time = scene.frame_time
             self.feet.message = played.note
-        self._feet_words.value = "" if slide is None else _about_feet(slide, scene.keep_feet)
+        self._feet_words.value = _about_feet(values, unit, scene.keep_feet)
 
     def show_code(self, code: str) -> None:
         """Offer the script that makes the scene again."""
@@ -276,15 +278,9 @@ def _about_places(refined: Refined | None) -> str:
     )
 
 
-def _about_feet(slide: FootSlide, kept: bool) -> str:
-    before, after = (
-        f"{_rounded(speed.mean())} in the mean, {_rounded(speed.max())} at most"
-        for speed in (slide.before, slide.after)
-    )
-    words = f"as rebuilt {before}; if it is kept {after}; in units of the file per s"
+def _about_feet(speeds: NDArray[np.float32], unit: str, kept: bool) -> str:
+    if len(speeds) == 0:
+        return ""
+    before, after = (f"{s.mean():.3g} {unit} in the mean, {s.max():.3g} at most" for s in speeds)
+    words = f"as rebuilt {before}; if it is kept {after}"
     return remark("Supporting foot slides", words + "; it is kept" * kept)
-
-
-def _rounded(speed: float) -> str:
-    """Write a speed without the rounding errors of a foot that stands."""
-    return "0" if speed < _STANDS else f"{speed:.3g}"
