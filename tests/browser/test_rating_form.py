@@ -145,6 +145,7 @@ def test_nothing_can_be_chosen_before_it_was_seen(mount: Callable) -> None:
 def test_the_next_item_has_the_focus(mount: Callable) -> None:
     """A screen reader speaks its heading, and ratings that were there are shown."""
     page = mount(form())
+    page.wait_for_function("document.activeElement.textContent === 'Movement 1 of 3'")
     page.evaluate(_SET, ["stored", [0, 8, 0]])
     page.evaluate(_SET, ["heading", "Movement 2 of 3"])
     page.wait_for_function("document.activeElement.textContent === 'Movement 2 of 3'")

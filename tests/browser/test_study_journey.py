@@ -52,7 +52,7 @@ def with_study(lab: Lab, name: str, study: Path) -> str:
 def rate(page: Any, *digits: str) -> None:
     """Rate figures from the first one on: a digit each, and Tab to the next."""
     page.wait_for_function("document.querySelector('.wb-rating fieldset:not([disabled])')")
-    page.locator(".wb-rating-heading").focus()
+    page.wait_for_function("document.activeElement.matches('.wb-rating-heading')")
     for digit in digits:
         page.keyboard.press("Tab")
         page.keyboard.press(digit)

@@ -26,8 +26,8 @@ _LIMIT = 120  # seconds
 #: rating once the page shows it as stored.
 TAKE_PART = """
 from itertools import count
-from workbench.dashboards import study_participation, take_part_in_study
-study_participation.monotonic = count().__next__  # every look at the clock is a second later
+from workbench.dashboards import study_item_view, take_part_in_study
+study_item_view.monotonic = count().__next__  # every look at the clock is a second later
 page = take_part_in_study({path!r})
 if {code!r}:
     page.memory.recalled = {code!r}

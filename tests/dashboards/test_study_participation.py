@@ -11,10 +11,10 @@ import ipywidgets
 import numpy as np
 import pytest
 
-from workbench.dashboards import study_participation
+from workbench.dashboards import study_item_view, study_participation
 from workbench.dashboards.study_participation import StudyParticipation, take_part_in_study
 from workbench.datasets import load
-from workbench.errors import WorkbenchError
+from workbench.errors import DataError, WorkbenchError
 from workbench.study.database import read_study
 from workbench.study.design import StudyDesign, load_design, store_design
 from workbench.study.participation import participants
@@ -52,7 +52,7 @@ CLOCK = [0.0]
 
 @pytest.fixture(autouse=True)
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    monkeypatch.setattr(study_participation, "monotonic", lambda: CLOCK[0])
+    monkeypatch.setattr(study_item_view, "monotonic", lambda: CLOCK[0])
     return CLOCK
 
 
@@ -268,6 +268,35 @@ def test_the_page_finds_the_study_of_its_address(
     page = take_part_in_study()
     assert "first" in page.root.children[-1].children[0].value
     page.close()
+
+
+def test_an_item_that_cannot_be_shown_is_told(
+    page: StudyParticipation, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """What was on the screen stays, and the same button goes on once the clip is back."""
+
+    def fail(_: object) -> None:
+        raise DataError("cmu/01_01-jump: is not the motion with which the study was prepared")
+
+    with monkeypatch.context() as patch:
+        patch.setattr(study_participation, "stimulus_motion", fail)
+        page.begin.click()
+        assert "That did not work" in page.message
+        assert page.begin in page.root.children[-1].children[1].children
+    page.begin.click()
+    assert page.run is not None
+    assert page.run.participant == 1
+    watch(page)
+    give(page, 9, 2)
+    with monkeypatch.context() as patch:
+        patch.setattr(study_participation, "stimulus_motion", fail)
+        finish(page)
+        assert page.form.message.startswith("That did not work")
+        assert page.player.positions.size
+        assert "is not the motion" in page.failure
+    finish(page)
+    assert page.index == 0
+    assert page.form.message == ""
 
 
 def test_a_study_that_is_gone_loses_nothing_on_the_page(

@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from html import escape
 
+import ipywidgets as widgets
+
 from workbench.study.answers import HIGHEST_RATING, LOWEST_RATING
 from workbench.study.design import StudyDesign
 
 #: What is asked for, and what is told whatever failed: its own words might name a method.
 WATCH_FIRST = "Watch the figures to the end once. Then you can rate them."
+EXERCISE = " This one is an exercise: nothing of it is stored."
+FETCHING = '<p role="status">The figures are being fetched …</p>'
 RATE_ALL = "Please rate all figures first."
 FAILED = "That did not work. Nothing that was stored is lost. Please call whoever leads the study."
 
@@ -35,12 +39,25 @@ def welcome_text(design: StudyDesign) -> str:
     )
 
 
+def onward_text(index: int, n_items: int) -> str:
+    """Say what the button does that leads on from an item, counted from 0; −1 is the exercise."""
+    if index < 0:
+        return "Start"
+    return "Finish" if index + 1 == n_items else "Next movement"
+
+
 def thanks_text(code: str) -> str:
     """Say that everything is done."""
     return _page(
         "Thank you",
         f"All your ratings are stored. You took part as {code}; you may close this page.",
     )
+
+
+def page_button(text: str, tooltip: str, style: str = "") -> widgets.Button:
+    """Make a button of a participant's page."""
+    layout = widgets.Layout(width="auto", min_width="110px")
+    return widgets.Button(description=text, tooltip=tooltip, button_style=style, layout=layout)
 
 
 def _page(title: str, *paragraphs: str) -> str:

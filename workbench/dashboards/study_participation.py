@@ -4,31 +4,36 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from string import ascii_uppercase
-from time import monotonic
 from typing import Any
 
 import ipywidgets as widgets
 
-from workbench.dashboards.home import Home
-from workbench.dashboards.layout import FITTING, alert, control_row, view_row
+from workbench.dashboards.home import Home, running_loop
+from workbench.dashboards.layout import FITTING, alert, control_row
 from workbench.dashboards.study_files import known_studies, study_of_address, study_path
+from workbench.dashboards.study_item_view import ItemView
 from workbench.dashboards.study_pages import (
+    EXERCISE,
     FAILED,
     RATE_ALL,
     WATCH_FIRST,
+    onward_text,
+    page_button,
     thanks_text,
     welcome_text,
 )
 from workbench.errors import DataError, WorkbenchError
-from workbench.study.answers import Stimulus
 from workbench.study.design import load_design
 from workbench.study.run import StudyRun
 from workbench.study.stimuli import stimulus_motion
 from workbench.widgets.player import MotionPlayer, motion_traits
-from workbench.widgets.rating_form import RatingForm
 from workbench.widgets.tab_memory import TabMemory
+
+#: Seconds between the start of an item and work on the next one.
+_PAUSE = 1.0
 
 
 class _Asked(Exception):  # noqa: N818 - no error: a person can do it
@@ -71,8 +76,6 @@ class StudyParticipation:
         The item on the screen, from 0; None for another page, −1 for the exercise.
     form : RatingForm
         Where ratings are given.
-    player : MotionPlayer
-        Where the motions of the item play.
     memory : TabMemory
         What the tab remembers.
     failure : str
@@ -83,24 +86,23 @@ class StudyParticipation:
         self.run: StudyRun | None = None
         self.index: int | None = None
         self.failure = ""
-        self.form = RatingForm(layout=widgets.Layout(flex="1 1 450px", max_width="500px"))
-        self.player = MotionPlayer()
         self.memory = TabMemory()
-        self._path: Path | None = None
-        self._seen_at = 0.0
+        self._path = Path()
+        self._fetched: dict[int, dict[str, Any]] = {}
         self._here = Home().here
+        self._view = ItemView(self._here)
+        self.form = self._view.form
         self._message = widgets.HTML()
         self._body = widgets.VBox([])
-        self.begin = _button("Begin", "Take part as a new participant")
-        self.begin.button_style = "primary"
+        self.begin = page_button("Begin", "Take part as a new participant", "primary")
         self.code = widgets.Text(
             description="Your code",
             placeholder="such as 12-KFM",
             style=FITTING,
             layout=widgets.Layout(width="240px"),
         )
-        self.go_on = _button("Go on", "Go on where you were")
-        self.next_person = _button("Next participant", "Begin again with somebody else")
+        self.go_on = page_button("Go on", "Go on where you were")
+        self.next_person = page_button("Next participant", "Begin again with somebody else")
         self.root = widgets.VBox([self.memory, self._message, self._body])
         self.root.add_class("wb-study")
         self._connect()
@@ -110,14 +112,18 @@ class StudyParticipation:
         return self.root._repr_mimebundle_(**kwargs)
 
     @property
+    def player(self) -> MotionPlayer:
+        """Where the motions of the item play."""
+        return self._view.player
+
+    @property
     def message(self) -> str:
         """What went wrong; empty if nothing did."""
         return str(self.form.message or self._message.value)
 
     def close(self) -> None:
         """Take the page away."""
-        self.player.close()
-        self.form.close()
+        self._view.close()
         self.root.close()
 
     # Pages.
@@ -139,7 +145,6 @@ class StudyParticipation:
         self.memory.name = hashlib.sha256(str(self._path).encode()).hexdigest()[:16]
 
     def _welcome(self) -> None:
-        assert self._path is not None  # a study is open
         self.run, self.index = None, None
         text = widgets.HTML(welcome_text(load_design(self._path)))
         again = widgets.HTML("<span>Were you here before?</span>")
@@ -155,11 +160,11 @@ class StudyParticipation:
         self._body.children = [widgets.HTML(thanks_text(self.run.code)), self.next_person]
 
     def _enter(self, run: StudyRun) -> None:
-        self.run = run
+        self.run, self._fetched = run, {}
         self.memory.word = run.code
         self._tell("")
         if run.design.practice and not run.has_begun:
-            self._show(-1, run.design.practice, [0] * len(run.design.practice))
+            self._show(-1, [0] * len(run.design.practice))
             return
         self._continue()
 
@@ -169,38 +174,52 @@ class StudyParticipation:
         if index is None:
             self._thanks()
         else:
-            self._show(index, self.run.items[index], self.run.ratings(index))
+            self._show(index, self.run.ratings(index))
 
-    def _show(self, index: int, stimuli: Sequence[Stimulus], ratings: list[int]) -> None:
+    def _show(self, index: int, ratings: list[int]) -> None:
         assert self.run is not None  # only participants get here
-        letters = list(ascii_uppercase[: len(stimuli)])
-        motions = {letter: stimulus_motion(s) for letter, s in zip(letters, stimuli, strict=True)}
         n_items = len(self.run.items)
         name = "Exercise" if index < 0 else f"Movement {index + 1} of {n_items}"
-        onward = "Start" if index < 0 else "Finish" if index + 1 == n_items else "Next movement"
-        before, self.index = self.player, index
-        # Whoever jumps to the end has not seen it: it takes as long as the motion is.
-        motion = motions[letters[0]]
-        self._seen_at = monotonic() + 0.9 * len(motion) * motion.frame_time
-        # Another player, so that nothing of the item before stays: neither turn nor ends.
-        self.player = MotionPlayer(
-            **motion_traits(motions), description=f"{name}, motions side by side", autoplay=True
+        before = self._body.children
+        if index not in self._fetched:
+            self._view.show_fetching()
+            self._body.children = [self._view.root]
+        try:
+            motions = self._fetch(index)
+        except Exception:
+            self._view.show_player()
+            self._body.children = before
+            raise
+        self.index = index
+        self._view.show(
+            motions,
+            ratings,
+            heading=name,
+            note=f"Your code is {self.run.code}. With it you can go on later.",
+            question=self.run.design.question + (EXERCISE if index < 0 else ""),
+            onward=onward_text(index, n_items),
         )
-        self.player.layout = widgets.Layout(flex="3 1 440px", min_width="0")
-        self.player.observe(self._here(self._on_end), "ends")
-        with self.form.hold_sync():
-            self.form.heading = name
-            self.form.note = f"Your code is {self.run.code}. With it you can go on later."
-            self.form.question = self.run.design.question + (
-                " This one is an exercise: nothing of it is stored." if index < 0 else ""
-            )
-            self.form.letters, self.form.stored, self.form.chosen = letters, ratings, ratings
-            self.form.onward, self.form.waiting = onward, WATCH_FIRST
-            # Who has rated something has seen it.
-            self.form.ready = any(ratings)
-            self.form.message = ""
-        self._body.children = [view_row([self.player, self.form])]
-        before.close()
+        self._body.children = [self._view.root]
+        loop = running_loop()
+        if loop is not None and index + 1 < n_items:
+            loop.call_later(_PAUSE, self._look_ahead, self.run, index + 1)
+
+    def _fetch(self, index: int) -> dict[str, Any]:
+        """Make the motions of an item, unless that was done ahead; only one item is kept."""
+        assert self.run is not None  # only participants get here
+        if index not in self._fetched:
+            stimuli = self.run.items[index] if index >= 0 else self.run.design.practice
+            letters = ascii_uppercase[: len(stimuli)]
+            motions = (stimulus_motion(stimulus) for stimulus in stimuli)
+            self._fetched = {index: motion_traits(dict(zip(letters, motions, strict=True)))}
+        return self._fetched[index]
+
+    def _look_ahead(self, run: StudyRun, index: int) -> None:
+        """Make the motions of the next item while the one before is watched."""
+        # What fails is told when the item is to be shown.
+        with suppress(Exception):
+            if run is self.run and self.index == index - 1:
+                self._fetch(index)
 
     def _tell(self, words: str) -> None:
         self._message.value = alert(words) if words else ""
@@ -217,11 +236,10 @@ class StudyParticipation:
         self.form.observe(here(lambda _: self._try(self._on_finished)), "finished")
 
     def _on_begin(self) -> None:
-        assert self._path is not None  # the button is on no other page
-        self._enter(StudyRun.begin(self._path))
+        # Whoever presses again because something failed is the same person.
+        self._enter(self.run or StudyRun.begin(self._path))
 
     def _on_go_on(self) -> None:
-        assert self._path is not None  # the button is on no other page
         try:
             run = StudyRun.resume(self._path, self.code.value)
         except DataError:
@@ -231,7 +249,7 @@ class StudyParticipation:
         self._enter(run)
 
     def _on_recalled(self) -> None:
-        if not self.memory.recalled or self.run is not None or self._path is None:
+        if not self.memory.recalled or self.run is not None:
             return
         try:
             run = StudyRun.resume(self._path, self.memory.recalled)
@@ -244,10 +262,6 @@ class StudyParticipation:
         self.memory.recalled = ""
         self.code.value = ""
         self._welcome()
-
-    def _on_end(self, change: Any) -> None:
-        if change["new"] > 0 and monotonic() >= self._seen_at:
-            self.form.ready = True
 
     def _on_chosen(self, change: Any) -> None:
         if self.index is None or change["new"] == self.form.stored:
@@ -296,9 +310,3 @@ class StudyParticipation:
             self.form.message = words
         else:
             self._tell(words)
-
-
-def _button(text: str, tooltip: str) -> widgets.Button:
-    return widgets.Button(
-        description=text, tooltip=tooltip, layout=widgets.Layout(width="auto", min_width="110px")
-    )

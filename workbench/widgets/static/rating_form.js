@@ -28,6 +28,8 @@ class RatingForm {
     onTraits(model, ["message"], () => this.refuse(), signal);
     signal.addEventListener("abort", () => clearTimeout(this.late));
     this.read(false);
+    // Whoever pressed a button that is gone with its page goes on here.
+    requestAnimationFrame(() => (document.activeElement ?? document.body) === document.body && this.heading.focus({ preventScroll: true }));
   }
 
   /** Take another item. Whoever works with the keyboard is led to its heading. */
