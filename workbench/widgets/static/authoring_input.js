@@ -32,9 +32,9 @@ class PadInput {
     if (!pad.scene || this.pressed) return;
     pad.pose.finish();
     pad.words.say("");
+    if (event.button > 1) return;
     pad.plane.plot.setPointerCapture(event.pointerId);
     const pans = event.button === 1 || event.shiftKey;
-    if (event.button > 1 || (event.button === 1 && !pans)) return;
     if (pans) event.preventDefault(); // the browser's own scrolling
     this.pressed = { pans, last: this.at(event) };
     if (!pans) pad.hand.press(this.at(event), event);

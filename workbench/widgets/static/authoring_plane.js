@@ -55,19 +55,10 @@ class PadPlane extends PlaneView {
     }
   }
 
-  /** Draw the trajectory in as many strokes as there are colours. */
-  drawCurve(context, { points, times, start, duration }) {
+  drawCurve(context, scene) {
     context.lineWidth = 2.6;
     context.lineJoin = "bevel"; // steps are short, and round joins take twice the time
-    const stepOf = (i) => Math.min(STEPS - 1, Math.floor(((times[i] - start) / duration) * STEPS));
-    let first = 0;
-    for (let i = 1; i < times.length; i++) {
-      if (i < times.length - 1 && stepOf(i) === stepOf(first)) continue;
-      this.trace(context, points, first, i);
-      context.strokeStyle = this.colours[stepOf(first)];
-      context.stroke();
-      first = i;
-    }
+    strokeByTime(context, scene, this.colours, (from, to) => this.trace(context, scene.points, from, to));
   }
 
   /** Write seconds beside the trajectory and point in its direction: colour is not all. */
@@ -214,6 +205,19 @@ class PadPlane extends PlaneView {
     });
     context.globalAlpha = 1;
     this.drawNow(context, [points[2 * index], points[2 * index + 1]], theme);
+  }
+}
+
+/** Stroke a trajectory in as many strokes as there are colours; `trace` takes a part into the path. */
+function strokeByTime(context, { times, start, duration }, colours, trace) {
+  const stepOf = (i) => Math.min(STEPS - 1, Math.floor(((times[i] - start) / duration) * STEPS));
+  let first = 0;
+  for (let i = 1; i < times.length; i++) {
+    if (i < times.length - 1 && stepOf(i) === stepOf(first)) continue;
+    trace(first, i);
+    context.strokeStyle = colours[stepOf(first)];
+    context.stroke();
+    first = i;
   }
 }
 

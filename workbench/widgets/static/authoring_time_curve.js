@@ -155,16 +155,10 @@ class TimeCurve {
     this.drawAxes(context, scene, theme);
     context.lineJoin = context.lineCap = "round";
     context.lineWidth = 2.4;
-    const colours = ramp(TIME_STOPS[theme.name]);
-    const stepOf = (i) => Math.min(STEPS - 1, Math.floor(((scene.times[i] - scene.start) / scene.duration) * STEPS));
-    for (let first = 0, i = 1; i < scene.times.length; i++) {
-      if (i < scene.times.length - 1 && stepOf(i) === stepOf(first)) continue;
+    strokeByTime(context, scene, ramp(TIME_STOPS[theme.name]), (from, to) => {
       context.beginPath();
-      for (let p = first; p <= i; p++) context[p > first ? "lineTo" : "moveTo"](...this.pixel(scene.times[p], this.along[p]));
-      context.strokeStyle = colours[stepOf(first)];
-      context.stroke();
-      first = i;
-    }
+      for (let i = from; i <= to; i++) context[i > from ? "lineTo" : "moveTo"](...this.pixel(scene.times[i], this.along[i]));
+    });
     if (pad.model.get("editable")) this.handles.forEach((i, h) => this.drawHandle(context, scene.times[i], this.along[i], h));
   }
 
