@@ -707,6 +707,11 @@ def test_an_exported_page_scrubs_and_plays_without_editing(visit: Any, tmp_path:
     assert page.evaluate(f"{PAD}.time") == pytest.approx(1.0, abs=0.05)
     for name in ("Undo: deform", "Markers", "Add marker"):
         assert page.get_by_role("button", name=name).count() == 0
+    assert "handle" not in page.locator(".wb-pad-curve").get_attribute("aria-label")
+    page.locator(".wb-pad-curve").focus()
+    for key in ["Home", "ArrowRight", "Enter", "ArrowRight"]:
+        page.keyboard.press(key)
+    assert array(page, "times").tolist() == pad().times.tolist()
     page.locator(PLOT).focus()
     page.keyboard.press("m")
     assert page.evaluate(f"{PAD}.mode") == "scrub"

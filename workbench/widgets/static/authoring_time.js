@@ -36,6 +36,7 @@ class PadTime {
     const { model, playing } = this.pad;
     this.toggle.textContent = playing ? "Pause" : "Play";
     this.toggle.setAttribute("aria-label", playing ? "Pause" : "Play");
+    this.curve.showControls(model.get("editable"));
     this.looping.setAttribute("aria-pressed", String(model.get("loop")));
     this.ghost.setAttribute("aria-pressed", String(model.get("show_ghost")));
     this.speed.value = String(model.get("speed"));

@@ -5,17 +5,23 @@ const CURVE_EDGE = { left: 48, right: 14, top: 10, bottom: 32 };
 const CURVE_ROOM = 1.12; // of the duration, so that the end can be moved out
 const HANDLES = 8; // parts of a trajectory without markers of its own
 const HANDLE_REACH = 12;
-const CURVE_HINT = "Time curve. Drag a handle to change when the trajectory is there; Shift moves all that is later as well. Arrow keys lead from handle to handle, Enter picks one up and drops it, Escape puts it back.";
+const CURVE_HINT = "Time curve. Press or drag to go to a time; arrow keys lead from key pose to key pose.";
+const RETIMING_HINT = "Time curve. Drag a handle to change when the trajectory is there; Shift moves all that is later as well. Arrow keys lead from handle to handle, Enter picks one up and drops it, Escape puts it back.";
 
 class TimeCurve {
   constructor(pad, signal) {
     Object.assign(this, { pad, handle: 0, held: false, handles: [] });
-    this.canvas = element("canvas", { class: "wb-pad-curve", tabindex: "0", role: "application", "aria-label": CURVE_HINT, title: CURVE_HINT });
+    this.canvas = element("canvas", { class: "wb-pad-curve", tabindex: "0", role: "application" });
     const on = (type, act) => this.canvas.addEventListener(type, act, { signal });
     on("pointerdown", (event) => this.press(event));
     on("pointermove", (event) => this.move(event));
     for (const type of ["pointerup", "pointercancel"]) on(type, () => this.release());
     for (const type of ["focus", "blur"]) on(type, () => this.redraw());
+  }
+
+  showControls(editable) {
+    this.canvas.title = editable ? RETIMING_HINT : CURVE_HINT;
+    this.canvas.setAttribute("aria-label", this.canvas.title);
   }
 
   /** Take the handles of a scene: its key poses, or even parts of the way. */
