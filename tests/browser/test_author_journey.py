@@ -33,7 +33,10 @@ def wait_for_scene(page: Any, *words: str) -> None:
 
 
 def test_load_drag_draw_export_and_read_back(lab: Lab, visit: Visit) -> None:
-    """What is saved as BVH is what the dashboard plays, after a drag and a drawn trajectory."""
+    """What is saved as BVH is what the dashboard plays, after a drag and a drawn trajectory.
+
+    Undo works by keyboard, and the saved page without a kernel.
+    """
     page = visit.page
     page.emulate_media(reduced_motion="reduce")
     open_and_run(page, lab, NOTEBOOK)
@@ -98,4 +101,19 @@ def test_load_drag_draw_export_and_read_back(lab: Lab, visit: Visit) -> None:
     assert in_kernel(page, "print(author.view.pad.redo_label, author.scene.keep_feet)") == (
         "draw False\n"
     )
-    assert violations(page, ".jp-OutputArea-output .jp-OutputArea-output, .wb-pad") == []
+    assert violations(page, ".jp-OutputArea-output:has(.wb-pad)") == []
+
+    # The saved page needs neither kernel nor server: poses follow the mouse there, too.
+    saved_page = lab.folder / "page.html"
+    in_kernel(page, f"author.export_html({str(saved_page)!r}, title='A walk')")
+    page.goto(saved_page.as_uri())
+    assert page.get_by_role("heading", level=1).inner_text() == "A walk"
+    page.locator(PLOT).scroll_into_view_if_needed()
+    stage = "document.querySelector('.wb-pad-stage').toDataURL()"
+    pictures = []
+    for marker in (0, 4):
+        place = f"[...{PAD}.scene.markers.subarray({2 * marker}, {2 * marker + 2})]"
+        page.mouse.move(*pixel(page, page.evaluate(place)))
+        pictures.append(page.evaluate(stage))
+    assert pictures[0] != pictures[1]
+    assert page.get_by_role("button", name="Undo").count() == 0

@@ -281,6 +281,14 @@ def _about_places(refined: Refined | None) -> str:
 def _about_feet(speeds: NDArray[np.float32], unit: str, kept: bool) -> str:
     if len(speeds) == 0:
         return ""
-    before, after = (f"{s.mean():.3g} {unit} in the mean, {s.max():.3g} at most" for s in speeds)
+    before, after = (
+        f"{_short(speed.mean())} {unit} in the mean, {_short(speed.max())} at most"
+        for speed in speeds
+    )
     words = f"as rebuilt {before}; if it is kept {after}"
     return remark("Supporting foot slides", words + "; it is kept" * kept)
+
+
+def _short(number: float) -> str:
+    """Write three digits, without an exponent."""
+    return f"{float(f'{number:.3g}'):g}"
