@@ -157,7 +157,10 @@ class StudyParticipation:
     def _thanks(self) -> None:
         assert self.run is not None  # somebody has finished
         self.index = None
-        self._body.children = [widgets.HTML(thanks_text(self.run.code)), self.next_person]
+        self._body.children = [
+            widgets.HTML(thanks_text(self.run.code)),
+            control_row([self.next_person]),
+        ]
 
     def _enter(self, run: StudyRun) -> None:
         self.run, self._fetched = run, {}
