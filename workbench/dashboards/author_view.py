@@ -63,6 +63,8 @@ class AuthorView:
         What can be saved.
     title, text : ipywidgets.Text
         Heading of a saved page, and words below it.
+    code : CodeControls
+        The script that makes the scene again.
     progress : ProgressView
         What is being computed.
     """
@@ -75,7 +77,8 @@ class AuthorView:
         self.progress = ProgressView("the places of in-between frames")
         self._message = widgets.HTML()
         self._feet_words = widgets.HTML()
-        self._code = CodeControls()
+        self.code, self._script = CodeControls(), ""
+        self.code.button.observe(lambda _: self.show_code(self._script), "value")
         self._make_page_fields()
         self._clip: Clip | None = None
         self._played: Played | None = None
@@ -155,13 +158,10 @@ class AuthorView:
         self._feet_words.value = _about_feet(values, unit, scene.keep_feet)
 
     def show_code(self, code: str) -> None:
-        """Offer the script that makes the scene again."""
-        self._code.show(code)
-
-    @property
-    def code(self) -> str:
-        """The script that makes the scene again."""
-        return str(self._code.cell.code)
+        """Offer the script that makes the scene again; it travels only where it is looked at."""
+        self._script = code
+        if self.code.button.value:
+            self.code.show(code)
 
     def show_message(
         self, clip: Clip | None, scene: Scene | None, refined: Refined | None, told: Sequence[str]
@@ -214,7 +214,7 @@ class AuthorView:
                 self.feet,
                 control_row([self.files, controls.session, controls.open_session]),
                 control_row([self.title, self.text]),
-                self._code.view,
+                self.code.view,
             ],
             layout=widgets.Layout(width="100%"),
         )
