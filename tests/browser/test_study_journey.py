@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,8 @@ from workbench.study.run import StudyRun
 from workbench.study.stimuli import Clip, make_stimuli, practice_stimuli
 
 pytestmark = pytest.mark.browser
+
+_ALL_TEXT = "(outputs) => outputs.map((output) => output.outerHTML)"
 
 #: A study that is made within a moment.
 SMALL = '["cmu/01_01-jump"], ["uniform", "pb"], count=3, seconds=0.5'
@@ -99,6 +102,10 @@ def test_a_participant_goes_through_a_study_by_keyboard(
     code = StudyRun(study, 1).code
     assert f"Your code is {code}" in page.locator(".wb-rating").inner_text()
     assert violations(page, ".jp-OutputArea-output") == []
+
+    shown = " ".join(page.locator(".jp-OutputArea-output").evaluate_all(_ALL_TEXT))
+    assert "Movement 2 of 2" in shown
+    assert not re.search("original|uniform|cmu|walk|jump", shown)
 
     open_and_run(page, lab, notebook)
     item(page, "Movement 2 of 2")

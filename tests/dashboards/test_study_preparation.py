@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -150,3 +151,23 @@ def test_an_unknown_method_is_refused() -> None:
     """In Python, where whoever wrote it sees the message."""
     with pytest.raises(WorkbenchError, match="selector: got 'none'"):
         prepare_study(CLIPS, ["none"])
+
+
+def test_making_stimuli_can_be_cancelled_and_begun_again() -> None:
+    """Inside a notebook's loop; what is missing then is said, and nothing can be stored."""
+
+    async def prepare() -> None:
+        preparation = prepare_study(
+            CLIPS[:1], ["uniform"], count=4, seconds=0.5, exercise=None, file="/nowhere/study"
+        )
+        preparation.view.progress.cancel.click()
+        await preparation.finished()
+        assert preparation.message == f"{CLIPS[0]}: cancelled"
+        assert preparation.controls.save.disabled
+        preparation.view.progress.again.click()
+        await preparation.finished()
+        assert preparation.message == ""
+        assert not preparation.controls.save.disabled
+        preparation.close()
+
+    asyncio.run(prepare())
