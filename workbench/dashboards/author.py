@@ -6,11 +6,11 @@ from pathlib import Path
 from typing import Any
 
 from workbench.authoring import Scene, play, read_session
-from workbench.dashboards.author_controls import COUNTS, AuthorControls
+from workbench.dashboards.author_controls import AuthorControls
 from workbench.dashboards.author_edits import Edited
 from workbench.dashboards.author_events import AuthorEvents
 from workbench.dashboards.author_files import content
-from workbench.dashboards.author_jobs import CIRCLE, Methods, Refined
+from workbench.dashboards.author_jobs import Methods, Refined
 from workbench.dashboards.author_live import LiveAuthor
 from workbench.dashboards.author_view import AuthorView
 from workbench.dashboards.sources import available, reread, source_of
@@ -18,7 +18,6 @@ from workbench.errors import WorkbenchError
 from workbench.files import write_atomically
 from workbench.mocap.motion import Motion
 from workbench.spaces import PoseSpace
-from workbench.validation import whole_number
 
 Data = str | Path | PoseSpace
 
@@ -95,7 +94,7 @@ class MotionAuthor:
         self.controls = AuthorControls(
             clips, self._methods.selectors.names(), self._methods.projectors.names()
         )
-        self._choose(selector, count, projector, random_state)
+        self.controls.set_placing(self._methods, selector, count, projector, random_state)
         source = source_of(clip)
         with self.controls.silence():
             self.controls.choose(source)
@@ -212,7 +211,8 @@ class MotionAuthor:
             If one is not valid, or no clip is loaded.
         """
         now = self.controls
-        self._choose(
+        now.set_placing(
+            self._methods,
             now.selector.value if selector is None else selector,
             now.count.value if count is None else count,
             now.projector.value if projector is None else projector,
@@ -237,12 +237,7 @@ class MotionAuthor:
         self._live.keep_feet(keep)
 
     def set_kernel(self, kernel: str, epsilon: float | None = None) -> None:
-        """Choose the radial function between key poses.
-
-        Parameters
-        ----------
-        kernel, epsilon
-            As for :class:`~workbench.backprojection.rbf.RBF`.
+        """Choose the radial function between key poses, by the names of ``RBF``.
 
         Raises
         ------
@@ -286,11 +281,6 @@ class MotionAuthor:
             The file; one that exists is replaced.
         title, text : str
             Its heading, and words below it; by default those of the dashboard's fields.
-
-        Returns
-        -------
-        Path
-            The file.
         """
         for field, words in ((self.view.title, title), (self.view.text, text)):
             field.value = words or field.value
@@ -300,20 +290,6 @@ class MotionAuthor:
         """End the process that computes, and take the dashboard out of the page."""
         self._live.stop()
         self.view.root.close()
-
-    def _choose(self, selector: str, count: int, projector: str, random_state: int) -> None:
-        """Check how markers are to be placed, and show it in the controls."""
-        methods, controls = self._methods, self.controls
-        methods.selectors.factory(selector)  # refuses it and says which there are
-        if projector != CIRCLE:
-            methods.projectors.factory(projector)
-        low, high = COUNTS
-        if not low <= whole_number("count", count) <= high:
-            raise WorkbenchError(f"count: got {count}, want {low} to {high}")
-        seed = whole_number("random_state", random_state, at_least=0)
-        controls.offer(methods.selectors.names(), methods.projectors.names())
-        controls.selector.value, controls.count.value = selector, count
-        controls.projector.value, controls.seed.value = projector, seed
 
     def _save(self, path: str | Path, want: str, ending: str) -> Path:
         target = Path(path)

@@ -8,10 +8,12 @@ from contextlib import contextmanager
 import ipywidgets as widgets
 
 from workbench.backprojection.radial import KERNELS
-from workbench.dashboards.author_jobs import CIRCLE
+from workbench.dashboards.author_jobs import CIRCLE, Methods
 from workbench.dashboards.data_controls import DataControls
 from workbench.dashboards.layout import FITTING, control_row, offer_names, seed_field
 from workbench.dashboards.sources import Choice
+from workbench.errors import WorkbenchError
+from workbench.validation import whole_number
 
 #: How many markers can be placed at once; the browser refits radial functions of so many while
 #: one is dragged.
@@ -70,6 +72,27 @@ class AuthorControls(DataControls):
         """List methods, those registered meanwhile among them."""
         offer_names(self.selector, selectors)
         offer_names(self.projector, [*projectors, CIRCLE])
+
+    def set_placing(
+        self, methods: Methods, selector: str, count: int, projector: str, seed: int
+    ) -> None:
+        """Show how markers are to be placed.
+
+        Raises
+        ------
+        WorkbenchError
+            If a name is unknown, or a number is out of range.
+        """
+        methods.selectors.factory(selector)  # refuses it and says which there are
+        if projector != CIRCLE:
+            methods.projectors.factory(projector)
+        low, high = COUNTS
+        if not low <= whole_number("count", count) <= high:
+            raise WorkbenchError(f"count: got {count}, want {low} to {high}")
+        whole_number("random_state", seed, at_least=0)
+        self.offer(methods.selectors.names(), methods.projectors.names())
+        self.selector.value, self.count.value = selector, count
+        self.projector.value, self.seed.value = projector, seed
 
     @contextmanager
     def silence(self) -> Iterator[None]:
