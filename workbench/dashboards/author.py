@@ -233,7 +233,7 @@ class MotionAuthor:
         self._live.follow_clip()
 
     def keep_feet(self, keep: bool = True) -> None:
-        """Choose whether the feet are kept from sliding, by moving the root."""
+        """Choose whether the feet are kept from sliding; refused where none are found."""
         self._live.keep_feet(keep)
 
     def set_kernel(self, kernel: str, epsilon: float | None = None) -> None:
