@@ -11,8 +11,8 @@ ones. What was undone is not kept.
     SHA-256, in hexadecimal digits, of the object without this member, as JSON with sorted
     keys, without blanks and with nothing but ASCII.
 ``fingerprint``
-    SHA-256 of the clip: the names of its joints and their rotations in all frames, to six
-    decimals. It tells whether a clip of that name is still the same.
+    SHA-256 of the clip: its skeleton, rotations and path of the root, to six decimals. It
+    tells whether a clip of that name is still the same.
 ``clip``
     Name of the clip in the catalogue, or path of its file.
 ``frame_time``
@@ -43,11 +43,11 @@ from typing import Any, NoReturn
 
 import numpy as np
 
-from workbench.authoring.fingerprint import clip_fingerprint
 from workbench.authoring.scene import Marker, Scene
 from workbench.authoring.trajectories import Trajectory
 from workbench.errors import DataError, WorkbenchError
 from workbench.files import write_atomically
+from workbench.mocap.fingerprint import clip_fingerprint
 from workbench.mocap.motion import Motion, check_motion
 from workbench.validation import as_numbers
 
@@ -84,13 +84,13 @@ class Session:
         Raises
         ------
         DataError
-            If it has other frames, joints or rotations.
+            If it has another skeleton or moves otherwise.
         """
         if clip_fingerprint(motion) != self.fingerprint:
             raise DataError(
                 f"clip {self.scene.clip!r}: is not the one that the session was made with: "
                 f"want {self.scene.n_frames} frames of {len(self.scene.markers[0].rotations)} "
-                f"joints with the same rotations, got {len(motion)} of "
+                f"joints that move alike, got {len(motion)} of "
                 f"{motion.skeleton.n_joints}"
             )
 

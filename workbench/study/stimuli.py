@@ -12,7 +12,6 @@ The parameters of a stimulus are
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -24,6 +23,7 @@ import numpy as np
 from workbench.datasets import load
 from workbench.errors import DataError, WorkbenchError
 from workbench.interpolation.slerp import Slerp
+from workbench.mocap.fingerprint import clip_fingerprint
 from workbench.mocap.motion import Motion
 from workbench.registry import Registry
 from workbench.schemes import TemporalScheme
@@ -123,7 +123,7 @@ class Clip:
             "first_frame": self.first_frame,
             "frames": len(self.motion),
             "seconds": round(len(self.motion) * self.motion.frame_time, 3),
-            "fingerprint": fingerprint(self.motion),
+            "fingerprint": clip_fingerprint(self.motion),
             "error": 0.0,
         }
 
@@ -255,15 +255,6 @@ def forget_clips() -> None:
     _part.cache_clear()
 
 
-def fingerprint(motion: Motion) -> str:
-    """Compute a checksum of a motion's numbers, to six decimals, and of its skeleton's names."""
-    digest = hashlib.sha256(" ".join(motion.skeleton.names).encode())
-    for numbers in (motion.skeleton.offsets, motion.rotations, motion.root_translation):
-        # Zeros may have a sign, which means nothing.
-        digest.update((np.round(numbers, 6) + 0.0).astype("<f8").tobytes())
-    return digest.hexdigest()[:16]
-
-
 @lru_cache(maxsize=4)
 def _part(clip: str, first: int, frames: int, expected: str) -> Motion:
     motion = load(clip)
@@ -271,7 +262,7 @@ def _part(clip: str, first: int, frames: int, expected: str) -> Motion:
         raise DataError(f"{clip}: got a table, want a motion")
     # What is too short has another fingerprint as well.
     part = motion[first : first + frames]
-    if fingerprint(part) != expected:
+    if clip_fingerprint(part) != expected:
         raise DataError(f"{clip}: is not the motion with which the study was prepared")
     return part
 
