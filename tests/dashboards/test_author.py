@@ -184,6 +184,26 @@ def test_an_optimizer_that_is_cancelled_goes_on_after_another_edit(author: Motio
     assert author.scene.trajectory.duration == pytest.approx(2 * 299 / 120, rel=1e-4)
 
 
+def test_a_new_pose_is_placed_before_frames_are_optimized(
+    author: MotionAuthor, first: Scene
+) -> None:
+    """An optimizer that is at work when a joint is turned neither loses the pose nor is lost."""
+
+    async def main() -> None:
+        author.controls.refine.value = True
+        do(author, "move", marker=2, to=[0.9, 0.2])
+        await asyncio.sleep(0.1)
+        do(author, **EDITS["turn, optimizer's place"](first))
+        await asyncio.wait_for(author.finished(), 60)
+
+    asyncio.run(main())
+    assert author.message == ""
+    assert len(author.scene.markers) == len(first.markers) + 1
+    assert author.view.pad.undo_label == "new pose"
+    assert author.view.pad.selected == len(first.markers)
+    assert author.refined is not None
+
+
 def test_cancelling_leaves_the_frames_where_rbfp_put_them(author: MotionAuthor) -> None:
     """The message says so, and computing again brings the better places."""
 

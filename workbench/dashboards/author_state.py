@@ -218,11 +218,14 @@ class AuthorState:
         jobs: list[Job] = []
         wanted, scene, clip = self.wanted, self.scene, self.clip
         if wanted is not None:
-            # A new pose belongs to the scene in which it was made.
-            outdated = isinstance(wanted, Posing) and wanted.scene is not scene
-            if self.clip_of(wanted.source) is None:
+            if isinstance(wanted, Posing):
+                # A new pose belongs to the scene in which it was made: better places of its
+                # frames, which would make another one, have to wait.
+                if wanted.scene is scene and wanted not in self.failures:
+                    return [wanted]
+            elif self.clip_of(wanted.source) is None:
                 jobs.append(wanted.source)
-            elif not isinstance(wanted, Opening) and not outdated:
+            elif isinstance(wanted, Placing):
                 jobs.append(wanted)
         if scene is None or clip is None:
             return jobs
