@@ -13,6 +13,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+from tests.browser.authoring_page import PLOT
 from tests.browser.chromium import Visit, open_browser
 from tests.browser.lab import (
     Lab,
@@ -22,6 +23,7 @@ from tests.browser.lab import (
     running_lab,
     wait_for_panels,
 )
+from tests.browser.test_author_journey import wait_for_scene
 from tests.browser.test_explain_journey import wait_until_explained
 from tests.browser.test_inspect_journey import wait_for_keyframes
 from workbench.resources import bundled
@@ -91,6 +93,15 @@ def prepare_inspection(page: Any) -> None:
         page.keyboard.press("PageDown")
 
 
+def prepare_authoring(page: Any) -> None:
+    """Show the pose at a place between key poses."""
+    wait_for_scene(page, DATA, "12 key poses")
+    in_kernel(page, "await author.finished()")
+    plane = page.locator(PLOT)
+    plane.scroll_into_view_if_needed()
+    plane.hover()
+
+
 def wait_for_theme(page: Any, name: str) -> None:
     """Wait until the page and its plotly figures have the theme's colours."""
     light = str(name == "light").lower()
@@ -121,6 +132,7 @@ DASHBOARDS = {
     "compare_projections": prepare_comparison,
     "explain_optimizer": prepare_explanation,
     "inspect_keyframes": prepare_inspection,
+    "author_motion": prepare_authoring,
 }
 
 if __name__ == "__main__":

@@ -502,7 +502,7 @@ def test_what_the_browser_asks_for_is_sent(
     def fail(*_: object) -> None:
         raise WorkbenchError("no room")
 
-    monkeypatch.setattr("workbench.dashboards.author_events.content", fail)
+    monkeypatch.setattr("workbench.dashboards.authoring.events.content", fail)
     files._handle_custom_msg({"want": "bvh"}, [])
     assert sent[-1][0]["failure"] == "no room"
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from workbench.dashboards.background import Background, Report, Stopped
+from workbench.dashboards.shared.background import Background, Report, Stopped
 from workbench.errors import WorkbenchError
 
 

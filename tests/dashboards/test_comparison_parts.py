@@ -362,7 +362,7 @@ def test_the_page_answers_who_wants_a_file(
     assert page == path.read_bytes()
     assert b"Projections of uci/iris" in page
     monkeypatch.setattr(
-        "workbench.dashboards.live.comparison_page",
+        "workbench.dashboards.comparison.live.comparison_page",
         lambda *_: (_ for _ in ()).throw(OSError("full")),
     )
     scatter._handle_custom_msg({"want": "html"}, [])

@@ -14,8 +14,8 @@ from sklearn.svm import SVR
 
 from workbench.backprojection import register_back_projector
 from workbench.backprojection.knn import KNN
-from workbench.dashboards.explain import OptimizerExplanation, explain_optimizer
-from workbench.dashboards.explain_methods import namespace_regressors
+from workbench.dashboards.explanation.explain import OptimizerExplanation, explain_optimizer
+from workbench.dashboards.explanation.methods import namespace_regressors
 from workbench.datasets import load_space
 from workbench.errors import WorkbenchError
 from workbench.optimization import optimizers, register_optimizer

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from workbench.dashboards.explain_jobs import Job, Method, Plane, Setup
-from workbench.dashboards.explain_state import ExplainState
-from workbench.dashboards.sources import Source
+from workbench.dashboards.explanation.jobs import Job, Method, Plane, Setup
+from workbench.dashboards.explanation.state import ExplainState
+from workbench.dashboards.shared.sources import Source
 
 METHODS = {name: Method(name, None, 1) for name in ("first", "second")}
 SETUP = Setup(Source("data"), METHODS["first"], METHODS["second"], 0.1, 0)

@@ -7,7 +7,7 @@ import pytest
 from sklearn.neighbors import KNeighborsRegressor
 
 from tests.optimization.problems import sheet
-from workbench.dashboards.explain_words import title_of, told
+from workbench.dashboards.explanation.words import title_of, told
 from workbench.optimization.global_search import GlobalSearch
 from workbench.optimization.gradient_descent import GradientDescent
 from workbench.optimization.local_search import LocalSearch

@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import threading
 
-from workbench.dashboards.home import Home
+from workbench.dashboards.shared.home import Home
 
 
 def test_calls_from_another_thread_are_done_in_the_first_one() -> None:

@@ -14,8 +14,8 @@ from PIL import Image
 
 from tests.browser.chromium import chromium_path
 from workbench.dashboards import KeyframeInspector, inspect_keyframes
-from workbench.dashboards.inspector_plan import BEST
-from workbench.dashboards.inspector_session import counts_to_measure
+from workbench.dashboards.inspection.plan import BEST
+from workbench.dashboards.inspection.session import counts_to_measure
 from workbench.datasets import load_space
 from workbench.errors import WorkbenchError
 from workbench.interpolation.slerp import Slerp

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from workbench.dashboards.panel_controls import PanelChooser
-from workbench.dashboards.panels import Panel, parameters_text, parsed_parameters
+from workbench.dashboards.comparison.panel_controls import PanelChooser
+from workbench.dashboards.comparison.panels import Panel, parameters_text, parsed_parameters
 from workbench.errors import WorkbenchError
 
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from workbench.dashboards.jobs import PanelResult, Values
-from workbench.dashboards.quality_figures import preservation_figure, shepard_figure
-from workbench.dashboards.quality_table import quality_table
-from workbench.dashboards.quality_view import QualityView
+from workbench.dashboards.comparison.jobs import PanelResult, Values
+from workbench.dashboards.comparison.quality_figures import preservation_figure, shepard_figure
+from workbench.dashboards.comparison.quality_table import quality_table
+from workbench.dashboards.comparison.quality_view import QualityView
 from workbench.quality.shepard_diagram import shepard_diagram
 from workbench.quality.summary import EmbeddingQuality
 

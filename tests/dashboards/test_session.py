@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from workbench.dashboards.jobs import Methods, Run
-from workbench.dashboards.measuring import curve_sizes
-from workbench.dashboards.panels import Panel
-from workbench.dashboards.session import Session
-from workbench.dashboards.sources import MAX_SAMPLES, Source
-from workbench.dashboards.summaries import summarize
+from workbench.dashboards.comparison.jobs import Methods, Run
+from workbench.dashboards.comparison.measuring import curve_sizes
+from workbench.dashboards.comparison.panels import Panel
+from workbench.dashboards.comparison.session import Session
+from workbench.dashboards.comparison.summaries import summarize
+from workbench.dashboards.shared.sources import MAX_SAMPLES, Source
 from workbench.errors import DataError, WorkbenchError
 from workbench.mocap.motion import Motion
 from workbench.optimization import VISUALIZATION_OPTIMIZER

@@ -146,7 +146,7 @@ def test_nothing_to_analyse_is_told(
 
 def test_each_bar_is_a_rating_with_the_mean_before_them(study: Path) -> None:
     """The mean has its interval, single ratings have none."""
-    from workbench.dashboards.study_figures import rating_bars
+    from workbench.dashboards.study.figures import rating_bars
 
     found = analyse_study(study).found[0]
     figure = rating_bars(found.ratings, "walk")

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from workbench.dashboards.study_files import known_studies, study_of_address, study_path
+from workbench.dashboards.study.files import known_studies, study_of_address, study_path
 from workbench.errors import WorkbenchError
 
 

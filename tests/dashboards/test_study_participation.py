@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from workbench.dashboards import study_item_view, study_participation
-from workbench.dashboards.study_participation import StudyParticipation, take_part_in_study
+from workbench.dashboards.study.participation import StudyParticipation, take_part_in_study
 from workbench.datasets import load
 from workbench.errors import DataError, WorkbenchError
 from workbench.study.database import read_study

@@ -5,31 +5,31 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from workbench.dashboards.author import MotionAuthor, author_motion
-    from workbench.dashboards.compare import ProjectionComparison, compare_projections
-    from workbench.dashboards.explain import OptimizerExplanation, explain_optimizer
-    from workbench.dashboards.inspector import KeyframeInspector, inspect_keyframes
-    from workbench.dashboards.panels import Panel
-    from workbench.dashboards.study_analysis import StudyAnalysis, analyse_study
-    from workbench.dashboards.study_participation import StudyParticipation, take_part_in_study
-    from workbench.dashboards.study_preparation import StudyPreparation, prepare_study
+    from workbench.dashboards.authoring.author import MotionAuthor, author_motion
+    from workbench.dashboards.comparison.compare import ProjectionComparison, compare_projections
+    from workbench.dashboards.comparison.panels import Panel
+    from workbench.dashboards.explanation.explain import OptimizerExplanation, explain_optimizer
+    from workbench.dashboards.inspection.inspector import KeyframeInspector, inspect_keyframes
+    from workbench.dashboards.study.analysis import StudyAnalysis, analyse_study
+    from workbench.dashboards.study.participation import StudyParticipation, take_part_in_study
+    from workbench.dashboards.study.preparation import StudyPreparation, prepare_study
 
 _HOMES = {
-    "KeyframeInspector": "inspector",
-    "MotionAuthor": "author",
-    "OptimizerExplanation": "explain",
-    "Panel": "panels",
-    "ProjectionComparison": "compare",
-    "StudyAnalysis": "study_analysis",
-    "StudyParticipation": "study_participation",
-    "StudyPreparation": "study_preparation",
-    "analyse_study": "study_analysis",
-    "author_motion": "author",
-    "compare_projections": "compare",
-    "explain_optimizer": "explain",
-    "inspect_keyframes": "inspector",
-    "prepare_study": "study_preparation",
-    "take_part_in_study": "study_participation",
+    "KeyframeInspector": "inspection.inspector",
+    "MotionAuthor": "authoring.author",
+    "OptimizerExplanation": "explanation.explain",
+    "Panel": "comparison.panels",
+    "ProjectionComparison": "comparison.compare",
+    "StudyAnalysis": "study.analysis",
+    "StudyParticipation": "study.participation",
+    "StudyPreparation": "study.preparation",
+    "analyse_study": "study.analysis",
+    "author_motion": "authoring.author",
+    "compare_projections": "comparison.compare",
+    "explain_optimizer": "explanation.explain",
+    "inspect_keyframes": "inspection.inspector",
+    "prepare_study": "study.preparation",
+    "take_part_in_study": "study.participation",
 }
 
 __all__ = [

@@ -1,0 +1,1 @@
+"""The authoring of motions on the plane of spatial keyframes."""

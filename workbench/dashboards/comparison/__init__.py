@@ -1,0 +1,1 @@
+"""The projection comparison: panels side by side, their settings and their quality."""

@@ -1,0 +1,1 @@
+"""The optimizer explained, step by step, on one sample's error landscape."""

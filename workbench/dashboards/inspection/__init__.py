@@ -1,0 +1,1 @@
+"""The keyframe inspector: what a selection keeps of a motion."""

@@ -1,0 +1,1 @@
+"""The user study: preparing it, taking part, and what the answers show."""
