@@ -13,7 +13,6 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from tests.browser.authoring_page import PLOT
 from tests.browser.chromium import Visit, open_browser
 from tests.browser.lab import (
     Lab,
@@ -94,12 +93,12 @@ def prepare_inspection(page: Any) -> None:
 
 
 def prepare_authoring(page: Any) -> None:
-    """Show the pose at a place between key poses."""
+    """Show the jump between two key poses."""
     wait_for_scene(page, DATA, "12 key poses")
     in_kernel(page, "await author.finished()")
-    plane = page.locator(PLOT)
-    plane.scroll_into_view_if_needed()
-    plane.hover()
+    page.locator(".wb-pad .wb-player-bar").focus()
+    for key in (*["PageDown"] * 6, "ArrowUp"):
+        page.keyboard.press(key)
 
 
 def wait_for_theme(page: Any, name: str) -> None:

@@ -165,7 +165,7 @@ class TimeCurves {
     let [low, high] = [kind === "curve" ? Infinity : 0, -Infinity];
     for (const v of values) [low, high] = [Math.min(low, v), Math.max(high, v)];
     const y = (v) => top + 2 + (1 - (v - low) / (high - low || 1)) * (ROWS.tall - 4);
-    this.drawLabel(context, name, kind === "curve" ? note : `max ${high.toPrecision(2)}`, top);
+    this.drawLabel(context, name, kind === "curve" ? note : `max ${Number(high.toPrecision(2))}`, top);
     if (kind === "curve") this.drawSalient(context, values, r, y);
     else this.drawAmount(context, values, y, top + ROWS.tall);
     context.fillStyle = this.theme.palette[2];
