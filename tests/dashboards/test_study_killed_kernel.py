@@ -26,8 +26,9 @@ _LIMIT = 120  # seconds
 #: rating once the page shows it as stored.
 TAKE_PART = """
 from itertools import count
-from workbench.dashboards import study_item_view, take_part_in_study
-study_item_view.monotonic = count().__next__  # every look at the clock is a second later
+from workbench.dashboards import take_part_in_study
+from workbench.dashboards.study import item_view
+item_view.monotonic = count().__next__  # every look at the clock is a second later
 page = take_part_in_study({path!r})
 if {code!r}:
     page.memory.recalled = {code!r}

@@ -11,7 +11,7 @@ import ipywidgets
 import numpy as np
 import pytest
 
-from workbench.dashboards import study_item_view, study_participation
+from workbench.dashboards.study import item_view, participation
 from workbench.dashboards.study.participation import StudyParticipation, take_part_in_study
 from workbench.datasets import load
 from workbench.errors import DataError, WorkbenchError
@@ -52,7 +52,7 @@ CLOCK = [0.0]
 
 @pytest.fixture(autouse=True)
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    monkeypatch.setattr(study_item_view, "monotonic", lambda: CLOCK[0])
+    monkeypatch.setattr(item_view, "monotonic", lambda: CLOCK[0])
     return CLOCK
 
 
@@ -279,7 +279,7 @@ def test_an_item_that_cannot_be_shown_is_told(
         raise DataError("cmu/01_01-jump: is not the motion with which the study was prepared")
 
     with monkeypatch.context() as patch:
-        patch.setattr(study_participation, "stimulus_motion", fail)
+        patch.setattr(participation, "stimulus_motion", fail)
         page.begin.click()
         assert "That did not work" in page.message
         assert page.begin in page.root.children[-1].children[1].children
@@ -289,7 +289,7 @@ def test_an_item_that_cannot_be_shown_is_told(
     watch(page)
     give(page, 9, 2)
     with monkeypatch.context() as patch:
-        patch.setattr(study_participation, "stimulus_motion", fail)
+        patch.setattr(participation, "stimulus_motion", fail)
         finish(page)
         assert page.form.message.startswith("That did not work")
         assert page.player.positions.size
