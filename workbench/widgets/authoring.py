@@ -19,7 +19,8 @@ class AuthoringPad(anywidget.AnyWidget):
     then the pad shows what the person did, and no other state: what comes during a gesture or
     before the answer waits. An edit that is refused is answered too, with the state as it was.
 
-    Every edit has ``number``, growing, and ``kind``:
+    Every edit has ``number``, growing, and ``kind``; all but undo and redo have the ``revision``
+    of the scene that was shown when the gesture began, too:
 
     ========= ==================================================================================
     kind      other entries
@@ -101,6 +102,8 @@ class AuthoringPad(anywidget.AnyWidget):
         False leaves scrubbing and playing only, as in an exported page.
     edit : dict
         The last edit, from the browser.
+    revision : int
+        Which scene the traits show: counts up whenever markers or trajectory have changed.
     answered : int
         Number of the last edit that the traits have taken in or refused.
     message : str
@@ -168,6 +171,7 @@ class AuthoringPad(anywidget.AnyWidget):
     redo_label = traitlets.Unicode("").tag(sync=True)
     editable = traitlets.Bool(True).tag(sync=True)
     edit = traitlets.Dict().tag(sync=True)
+    revision = traitlets.Int(0).tag(sync=True)
     answered = traitlets.Int(0).tag(sync=True)
     message = traitlets.Unicode("").tag(sync=True)
     channel = traitlets.Unicode("").tag(sync=True)
