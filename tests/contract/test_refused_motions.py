@@ -46,6 +46,7 @@ from workbench.mocap import (
 from workbench.mocap import distances as pose_distances
 from workbench.mocap.contacts import feet_by_height, find_feet, foot_heights
 from workbench.mocap.curve_saliency import curve_curvature, curve_saliency, saliency_maps
+from workbench.mocap.fingerprint import clip_fingerprint
 from workbench.mocap.foot_contacts import foot_contacts
 from workbench.mocap.joining import join
 from workbench.mocap.motion_saliency import motion_saliency
@@ -198,6 +199,7 @@ TAKE_A_MOTION = (
     lambda motion: resample(motion, 0.1),
     lambda motion: write_bvh(motion, "x.bvh"),
     lambda motion: find_feet(motion),
+    clip_fingerprint,
     lambda motion: foot_contacts(motion),
     lambda motion: animation.psnr(motion, ROTATIONS),
     lambda motion: animation.body_coordinate_error(motion, ROTATIONS, femur=1.0),
