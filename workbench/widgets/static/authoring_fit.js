@@ -10,7 +10,8 @@ const UNDETERMINED = 1e-10; // of the largest singular value
  * A radial function through values at places of the plane: `points` holds x and y of each,
  * `values` a row of outputs for each. Places that coincide share the mean of their values.
  * It is kept as what each place counts for at a point: to fit is to factorise one small
- * matrix, whatever the number of outputs. Throws if places are too close to tell apart.
+ * matrix, whatever the number of outputs. Where places are so close that rounding leaves the
+ * matrix without a Cholesky factor, weights are those of least squares and smallest norm.
  */
 class FittedRadial {
   constructor({ kernel, epsilon, points, values }) {
@@ -26,7 +27,9 @@ class FittedRadial {
     this.matrix = new Float64Array(n * n);
     for (let j = 0; j < n; j++) this.matrix.set(this.basis(nodes[2 * j], nodes[2 * j + 1]), j * n);
     this.seen = polynomialsAt(nodes);
-    this.factor = choleskyOf(definite(this.matrix, this.seen.left, n), n);
+    const system = definite(this.matrix, this.seen.left, n);
+    this.factor = choleskyOf(system, n);
+    this.inverse = this.factor ? null : pseudoInverse(system, this.seen.left, n);
   }
 
   /** The kernel, with its sign, between a place and all nodes. */
@@ -43,16 +46,19 @@ class FittedRadial {
    * where q continues the polynomials and z, which they do not see, solves S z = φ − S q.
    */
   shares(x, y) {
-    const { n, matrix, seen, factor } = this;
+    const { n, matrix, seen, factor, inverse } = this;
     const q = new Float64Array(n);
     seen.left.forEach((column, k) => {
       const along = (seen.right[k][0] + seen.right[k][1] * x + seen.right[k][2] * y) / seen.singular[k];
       for (let i = 0; i < n; i++) q[i] += along * column[i];
     });
     const wanted = residual(matrix, q, this.basis(x, y));
-    const z = solved(factor, hidden(wanted.slice(), seen.left));
-    const rest = solved(factor, hidden(residual(matrix, z, wanted), seen.left));
-    for (let i = 0; i < n; i++) z[i] += rest[i];
+    const start = hidden(wanted.slice(), seen.left);
+    const z = factor ? solved(factor, start) : applied(inverse, start);
+    if (factor) {
+      const rest = solved(factor, hidden(residual(matrix, z, wanted), seen.left));
+      for (let i = 0; i < n; i++) z[i] += rest[i];
+    }
     hidden(z, seen.left);
     for (let i = 0; i < n; i++) q[i] += z[i];
     return q;
@@ -190,6 +196,7 @@ function definite(matrix, left, n) {
   return result;
 }
 
+/** The Cholesky factor, below the diagonal; null where rounding leaves none. */
 function choleskyOf(matrix, n) {
   const factor = matrix.slice();
   for (let i = 0; i < n; i++) {
@@ -198,7 +205,7 @@ function choleskyOf(matrix, n) {
       for (let k = 0; k < j; k++) sum -= factor[i * n + k] * factor[j * n + k];
       if (i > j) factor[i * n + j] = sum / factor[j * n + j];
       else if (sum > 0) factor[i * n + i] = Math.sqrt(sum);
-      else throw new Error("markers are too close to each other");
+      else return null;
     }
   }
   return factor;
@@ -216,6 +223,37 @@ function solved(factor, vector) {
     vector[i] /= factor[i * n + i];
   }
   return vector;
+}
+
+/**
+ * The inverse for least squares, as NumPy's lstsq has it: directions whose eigenvalue is nothing
+ * but rounding, beside the largest one among weights that polynomials do not see, are left out.
+ */
+function pseudoInverse(matrix, left, n) {
+  const rows = Array.from({ length: n }, (_, i) => matrix.slice(i * n, (i + 1) * n));
+  const vectors = rows.map((_, i) => Float64Array.from({ length: n }, (__, j) => Number(i === j)));
+  const size = Math.sqrt(dot(matrix, matrix));
+  for (let round = 0; round < 30; round++) {
+    let off = 0;
+    for (let p = 0; p < n - 1; p++) for (let q = p + 1; q < n; q++) off = Math.max(off, Math.abs(rows[p][q]));
+    if (off <= Number.EPSILON * size) break;
+    for (let p = 0; p < n - 1; p++) for (let q = p + 1; q < n; q++) jacobiTurn(rows, vectors, p, q);
+  }
+  const directions = rows.map((row, k) => ({ value: row[k], vector: Float64Array.from(vectors, (entries) => entries[k]) }));
+  const unseen = ({ vector }) => left.reduce((sum, column) => sum + dot(column, vector) ** 2, 0) < 0.5;
+  const largest = Math.max(...directions.filter(unseen).map(({ value }) => Math.abs(value)));
+  const cutoff = Number.EPSILON * (n - left.length) * largest;
+  const result = new Float64Array(n * n);
+  for (const { value, vector } of directions) {
+    if (!(Math.abs(value) > cutoff)) continue;
+    for (let i = 0; i < n; i++) for (let j = 0; j < n; j++) result[i * n + j] += (vector[i] * vector[j]) / value;
+  }
+  return result;
+}
+
+function applied(matrix, vector) {
+  const n = vector.length;
+  return vector.map((_, i) => dot(matrix.subarray(i * n, (i + 1) * n), vector));
 }
 
 function residual(matrix, weights, wanted) {
