@@ -304,7 +304,8 @@ def test_a_turned_joint_shows_live_and_is_told_at_the_end(mount: Callable) -> No
     slider.evaluate("(node) => node.dispatchEvent(new Event('change', {bubbles: true}))")
     told = edit(page)
     told.pop("number")
-    assert told == {"kind": "turn", "marker": 1, "joint": 1, "angles": [0, 0, 25], "place": None}
+    turn = {"kind": "turn", "marker": 1, "joint": 1, "angles": [0, 0, 25], "place": None}
+    assert told == {**turn, "revision": 0}
 
 
 def test_turning_by_keys_is_one_edit(mount: Callable) -> None:
@@ -401,6 +402,16 @@ def test_feet_of_python_move_the_root(mount: Callable) -> None:
     page.evaluate(f"{PAD}.look([20, 10])")
     root = page.evaluate(f"[...{PAD}.pose.shown].slice(0, 3)")
     assert root == pytest.approx([20, 10, 10])
+
+
+def test_between_frames_the_root_goes_on_as_the_pose_does(mount: Callable) -> None:
+    """It is on the line from frame to frame; after the last frame it stays."""
+    roots = np.zeros((41, 3))
+    roots[:, 0] = np.arange(41) ** 2
+    page = mount(pad(roots=roots))
+    for seconds, x in {2.0: 400, 2.05: 420.5, 2.075: 430.75, 4.0: 1600}.items():
+        page.evaluate(f"{PAD}.seek({seconds})")
+        assert page.evaluate(f"{PAD}.pose.shown[0]") == pytest.approx(x)
 
 
 def test_it_plays_on_while_a_marker_is_dragged(mount: Callable) -> None:
@@ -524,18 +535,99 @@ def test_no_other_state_is_shown_before_the_answer(mount: Callable) -> None:
     assert array(page, "markers")[2:4].tolist() == [3.0, 4.0]
 
 
-def test_edits_wait_for_the_answer_to_those_before(mount: Callable) -> None:
-    """Two quick edits are told one after the other: a second would take the first one's place."""
+def five_markers(**traits: Any) -> AuthoringPad:
+    """Make a pad of which two markers can be removed."""
     markers = np.vstack([MARKERS, [[50.0, 5.0]]])
     more = {"marker_poses": np.tile(np.eye(3), (5, 3, 1, 1)).reshape(5, -1), "influence": []}
     names = {"marker_frames": [*KEYS, -1], "marker_names": list("ABCDE")}
-    page = mount(pad(markers=markers, marker_roots=np.zeros((5, 3)), **more, **names))
+    return pad(markers=markers, marker_roots=np.zeros((5, 3)), **more, **names, **traits)
+
+
+def remove_two(page: Any) -> None:
+    """Remove two markers before Python has answered."""
     for _ in range(2):
         page.evaluate(f"{PAD}.select(0); {PAD}.removeMarker()")
-    assert [edit(page)["number"], page.evaluate(f"{PAD}.scene.count")] == [1, 3]
-    answer(page)
-    assert edit(page) == {"number": 2, "kind": "remove", "marker": 0}
+
+
+def test_edits_wait_for_the_answer_to_those_before(mount: Callable) -> None:
+    """Two quick edits are told one after the other: a second would take the first one's place."""
+    page = mount(five_markers(revision=3))
+    remove_two(page)
+    assert edit(page) == {"number": 1, "kind": "remove", "marker": 0, "revision": 3}
     assert page.evaluate(f"{PAD}.scene.count") == 3
+    answer(page, revision=4)
+    assert edit(page) == {"number": 2, "kind": "remove", "marker": 0, "revision": 4}
+    assert page.evaluate(f"{PAD}.scene.count") == 3
+
+
+def test_what_was_done_upon_a_refused_edit_is_put_back(mount: Callable) -> None:
+    """It would be done to another marker: it is not told, nor what the hand still holds."""
+    page = mount(five_markers(mode="markers"))
+    remove_two(page)
+    page.evaluate(f"{PAD}.tell('undo')")
+    start = pixel(page, [20.0, 10.0])
+    page.mouse.move(*start)
+    page.mouse.down()
+    page.mouse.move(start[0] + 30, start[1] - 40, steps=3)
+    answer(page, message="No marker can be removed.")
+    page.mouse.up()
+    assert edit(page)["number"] == 1
+    expected = np.vstack([MARKERS, [[50.0, 5.0]]])
+    assert array(page, "markers").tolist() == expected.ravel().tolist()
+    drag(page, start, (start[0] + 30, start[1] - 40))
+    assert [edit(page)[key] for key in ("number", "kind", "marker")] == [2, "move", 2]
+
+
+@pytest.mark.parametrize(
+    ("mode", "place", "kind"),
+    [("markers", MARKERS[1], "move"), ("deform", [15.0, 5.0], "deform")],
+    ids=["markers", "deform"],
+)
+def test_an_edit_says_which_scene_its_gesture_began_with(
+    mount: Callable, mode: str, place: Any, kind: str
+) -> None:
+    """A scene that comes after the press waits and is not the one that the hand was laid on."""
+    page = mount(pad(mode=mode, revision=4))
+    start = pixel(page, place)
+    page.mouse.move(*start)
+    page.mouse.down()
+    answer(page, revision=5, markers=MARKERS[::-1])
+    page.mouse.move(start[0] + 30, start[1] - 40, steps=3)
+    answer(page, revision=6)
+    page.mouse.up()
+    assert [edit(page)["kind"], edit(page)["revision"]] == [kind, 4]
+    assert edit(page).get("marker", 1) == 1
+    answer(page, revision=7, markers=MARKERS)
+    drag(page, start, (start[0] + 30, start[1] - 40))
+    assert edit(page)["revision"] == 7
+
+
+def test_a_gesture_upon_an_edit_says_the_scene_that_answered_it(mount: Callable) -> None:
+    """Not the one before the edit, nor what the optimizer makes of it in the meantime."""
+    page = mount(five_markers(mode="markers", revision=1))
+    page.evaluate(f"{PAD}.select(4); {PAD}.removeMarker()")
+    start = pixel(page, MARKERS[1])
+    page.mouse.move(*start)
+    page.mouse.down()
+    answer(page, revision=2)
+    answer(page, revision=3)
+    page.mouse.move(start[0] + 30, start[1] - 40, steps=3)
+    page.mouse.up()
+    assert [edit(page)["number"], edit(page)["revision"]] == [2, 2]
+
+
+def test_a_gesture_begun_before_an_undo_says_the_scene_before_it(mount: Callable) -> None:
+    """What undo brings is not in sight before Python shows it."""
+    page = mount(pad(mode="markers", revision=1, undo_label="deform"))
+    page.locator(PLOT).focus()
+    page.keyboard.press("Control+z")
+    start = pixel(page, MARKERS[1])
+    page.mouse.move(*start)
+    page.mouse.down()
+    answer(page, revision=2)
+    page.mouse.move(start[0] + 30, start[1] - 40, steps=3)
+    page.mouse.up()
+    assert [edit(page)["kind"], edit(page)["revision"]] == ["move", 1]
 
 
 def test_a_refused_edit_is_put_back(mount: Callable) -> None:
@@ -605,6 +697,40 @@ def test_undo_and_redo_are_told(mount: Callable) -> None:
     assert edit(page)["number"] == 1
     page.keyboard.press("Control+Shift+z")
     assert edit(page) == {"number": 2, "kind": "redo"}
+
+
+@pytest.mark.parametrize(
+    ("label", "told"),
+    [
+        ("Speed", "undo"),
+        ("Joint", "undo"),
+        ("What turning changes", "undo"),
+        ("Turn about z, degrees", "undo"),
+        ("Degrees about z", None),
+    ],
+    ids=["speed", "joint", "place", "slider", "number"],
+)
+def test_undo_goes_by_key_but_where_text_is_typed(
+    mount: Callable, label: str, told: str | None
+) -> None:
+    """Lists and sliders have nothing of their own to undo; fields undo what was typed."""
+    page = mount(pad(selected=1, undo_label="deform"))
+    page.get_by_label("Joint", exact=True).select_option("1")
+    page.get_by_label(label, exact=True).focus()
+    page.keyboard.press("Control+z")
+    assert edit(page).get("kind") == told
+
+
+def test_undo_puts_back_a_joint_that_is_being_turned(mount: Callable) -> None:
+    """It is what was done last; nothing before it is undone."""
+    page = mount(pad(mode="markers", selected=1, undo_label="deform"))
+    page.get_by_label("Joint", exact=True).select_option("1")
+    page.get_by_label("Turn about z, degrees").focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Control+z")
+    page.keyboard.press("Tab")
+    assert shown_angle(page) == pytest.approx(30.0, abs=1e-6)
+    assert edit(page) == {}
 
 
 # Keyboard.

@@ -107,7 +107,8 @@ class AuthoringPad(anywidget.AnyWidget):
     answered : int
         Number of the last edit that the traits have taken in or refused.
     message : str
-        A sentence shown below the plane, for instance why an edit was refused.
+        A sentence shown below the plane: why the last edit was refused. What was done upon it
+        in the meantime is put back as well.
     channel : str
         Views with the same channel show the same frame of the trajectory.
     """
@@ -136,6 +137,7 @@ class AuthoringPad(anywidget.AnyWidget):
         "authoring_words",
         "authoring_clock",
         "authoring_glide",
+        "authoring_post",
         "authoring",
     )
     _css = style_sheet()

@@ -2,16 +2,16 @@
 // clock, and tells Python of an edit when its gesture has ended.
 
 const FEWEST_MARKERS = 3;
-const ANSWER_WITHIN = 15_000; // milliseconds
 const SCENE_TRAITS = [
   "parents", "sides", "head", "offsets", "joint_names", "frame_time", "kernel", "epsilon", "markers", "marker_poses", "marker_roots",
-  "marker_frames", "marker_names", "influence", "embedding", "points", "times", "follows", "ghost", "roots", "answered",
+  "marker_frames", "marker_names", "influence", "embedding", "points", "times", "follows", "ghost", "roots", "revision", "answered",
 ];
 
 class AuthoringPad extends PadClock {
   constructor(model, root, signal) {
     super(model);
-    Object.assign(this, { root, signal, hovered: -1, selected: -1, holding: false, pending: 0, sent: 0, queue: [], radius: 0 });
+    Object.assign(this, { root, signal, hovered: -1, selected: -1, holding: false, radius: 0 });
+    this.post = new PadPost(this);
     const hintId = `wb-hint-${Math.random().toString(36).slice(2)}`;
     this.tools = new PadTools(this, signal);
     this.plane = new PadPlane(hintId);
@@ -40,7 +40,7 @@ class AuthoringPad extends PadClock {
       observer.disconnect();
       cancelAnimationFrame(this.request);
       cancelAnimationFrame(this.glide.request);
-      clearTimeout(this.patience);
+      clearTimeout(this.post.patience);
       clearTimeout(this.pose.finishing);
     });
   }
@@ -49,15 +49,15 @@ class AuthoringPad extends PadClock {
 
   /** Take the traits over, unless the hand is at work or Python has still to answer. */
   arrive() {
-    const answered = this.model.get("answered");
-    if (answered >= this.sent) this.sendNext();
-    if (!this.holding && answered >= this.pending) this.read();
+    this.post.takeAnswer();
+    if (!this.holding && this.post.answered >= this.post.pending) this.read();
   }
 
   read() {
     const scene = new AuthoredScene(this.model);
     // Traits of another clip may come one after the other; what does not fit is not drawn.
     if (!scene.fits) return this.showControls();
+    this.post.show();
     this.glide.stop();
     const before = this.scene;
     const first = !before;
@@ -80,26 +80,9 @@ class AuthoringPad extends PadClock {
     this.showControls();
   }
 
-  /** Tell Python of an edit, as soon as it has answered those before. */
+  /** Tell Python of an edit. */
   tell(kind, details = {}) {
-    this.pending = Math.max(this.pending, this.model.get("answered"), this.model.get("edit").number ?? 0) + 1;
-    this.queue.push({ number: this.pending, kind, ...details });
-    if (this.model.get("answered") >= this.sent) this.sendNext();
-  }
-
-  /** Send one edit: a second one before Python has read the first would take its place. */
-  sendNext() {
-    clearTimeout(this.patience);
-    if (this.late) this.words.say("");
-    this.late = false;
-    const edit = this.queue.shift();
-    if (!edit) return;
-    this.sent = edit.number;
-    this.save("edit", edit);
-    this.patience = setTimeout(() => {
-      this.late = true;
-      this.words.say("Python has not answered yet: it is busy or has stopped. What you see is kept until it does.", true);
-    }, ANSWER_WITHIN);
+    this.post.tell(kind, details);
   }
 
   save(name, value) {
@@ -118,12 +101,16 @@ class AuthoringPad extends PadClock {
   hold() {
     this.glide.stop();
     this.holding = true;
+    this.post.base = this.post.shown;
   }
 
   /** Let go; with `putBack` everything is as Python has it, else as the hand has left it. */
   letGo(putBack = false) {
     this.holding = false;
-    if (putBack) return this.arrive();
+    if (putBack) {
+      this.post.base = null;
+      return this.arrive();
+    }
     this.radius = sensibleRadius(this.scene, this.radius);
     this.clock.read(this.scene);
     this.redraw();

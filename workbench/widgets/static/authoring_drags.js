@@ -18,6 +18,7 @@ class MarkerHand extends Hand {
     const marker = this.pad.plane.nearestMarker(this.scene, at);
     this.pressed = { at, marker };
     this.pad.select(marker);
+    if (marker >= 0) this.pad.hold(); // another scene may have it elsewhere
   }
 
   move([x, y]) {
@@ -33,6 +34,7 @@ class MarkerHand extends Hand {
     const { marker } = this.pressed ?? {};
     this.pressed = null;
     if (this.held) this.drop();
+    else if (marker >= 0) this.pad.letGo(true);
     else if (marker < 0) this.pad.pin(this.pad.plane.toPlace(at));
   }
 
@@ -126,6 +128,7 @@ class DeformHand extends Hand {
   press(at) {
     this.index = this.pad.plane.nearestOn(this.scene.points, at, PAD_REACH);
     this.pressed = this.index >= 0 ? at : null;
+    if (this.pressed) this.pad.hold();
   }
 
   move([x, y]) {
@@ -138,8 +141,9 @@ class DeformHand extends Hand {
   }
 
   release() {
-    this.pressed = null;
     if (this.held) this.drop();
+    else if (this.pressed) this.pad.letGo(true);
+    this.pressed = null;
   }
 
   abandon() {

@@ -2,6 +2,8 @@
 
 const PAD_HINT = "Space plays, comma and full stop step. Wheel, + or − zooms the focused plane, Shift and drag moves it.";
 
+const TEXT_FIELDS = "input[type=number], input[type=text]"; // they undo what is typed there
+
 class PadInput {
   constructor(pad, signal) {
     Object.assign(this, { pad, signal });
@@ -69,10 +71,12 @@ class PadInput {
     const { pad } = this;
     this.pressed = null;
     if (pad.clock.curve.held) pad.clock.curve.abandon();
-    else if (pad.hand.held) {
+    else if (pad.pose.start) pad.pose.abandon();
+    else {
+      const { held } = pad.hand;
       pad.hand.abandon();
-      pad.words.say("put back");
-    } else pad.pose.abandon();
+      if (held) pad.words.say("put back");
+    }
   }
 
   wheel(event) {
@@ -87,7 +91,7 @@ class PadInput {
   key(event) {
     const { pad } = this;
     const typing = event.target.closest("select, input");
-    if (event.ctrlKey || event.metaKey) return typing ? undefined : this.history(event);
+    if (event.ctrlKey || event.metaKey) return event.target.closest(TEXT_FIELDS) ? undefined : this.history(event);
     if (event.altKey || !pad.scene) return;
     // JupyterLab would take it as a command to its cells, even one that means nothing here.
     if (event.key.length === 1) event.stopPropagation();
@@ -106,7 +110,8 @@ class PadInput {
     if (!way || !pad.model.get("editable")) return;
     event.stopPropagation();
     event.preventDefault();
-    if (!pad.holding && pad.model.get(`${way}_label`)) pad.tell(way);
+    if (pad.pose.start && way === "undo") pad.pose.abandon();
+    else if (!pad.holding && pad.model.get(`${way}_label`)) pad.tell(way);
   }
 
   /** Do what a key says; tell whether it says something. */

@@ -47,7 +47,6 @@ class PadPose {
       }
       return { slider, field, node: element("label", { class: "wb-pad-turn" }, [element("span", { text: axis }), slider, field]) };
     });
-    on(this.joints, "keydown", (event) => event.stopPropagation());
     this.places.title = "A new marker goes to the place that was looked at, or to where the optimizer puts it";
     this.title = element("span", { class: "wb-title" });
     this.turning = element("div", { class: "wb-pad-turning", hidden: "" }, [

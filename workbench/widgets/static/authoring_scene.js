@@ -195,11 +195,13 @@ class AuthoredScene {
     return placeAt(this.points, this.times, time);
   }
 
-  /** The root at a time as Python wants it, if it has sent any. */
+  /** The root at a time as Python wants it, if it has sent any: between frames, as the pose is. */
   rootAt(time) {
     if (!this.roots.length || this.roots.length !== 3 * this.frames) return null;
-    const frame = this.frameAt(time);
-    return this.roots.subarray(3 * frame, 3 * frame + 3);
+    const exact = Math.max(0, Math.min(this.frames - 1, (time - this.start) / this.frameTime));
+    const frame = Math.floor(exact);
+    const [here, next] = [3 * frame, 3 * Math.min(frame + 1, this.frames - 1)];
+    return [0, 1, 2].map((k) => this.roots[here + k] + (exact - frame) * (this.roots[next + k] - this.roots[here + k]));
   }
 
   /** Positions of the original motion at a time; null after its end. */
