@@ -101,6 +101,21 @@ def test_one_constant_difference_has_no_spread(shift):
 
 
 @pytest.mark.parametrize(
+    ("first", "second", "difference"),
+    [([26 / 3, 22 / 3], [23 / 3, 19 / 3], 1.0), ([0.1 + 0.2, 0.3], [0.3, 0.3], 0.0)],
+    ids=["all 1", "all 0"],
+)
+def test_means_that_differ_equally_but_for_rounding_have_no_spread(first, second, difference):
+    """As means of three ratings do, whose differences differ in the last digit."""
+    assert np.ptp(np.subtract(first, second)) > 0
+    with pytest.warns(DegenerateDataWarning, match="all 2 participants"):
+        result = compare_pair(first, second)
+    assert result.standard_deviation == 0.0
+    assert result.mean_difference == pytest.approx(difference)
+    assert math.isinf(result.t) if difference else math.isnan(result.t)
+
+
+@pytest.mark.parametrize(
     ("first", "second", "message"),
     [
         ([1, 2, 3], [1, 2], "second_ratings: got 2 for 3"),

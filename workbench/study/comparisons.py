@@ -27,6 +27,10 @@ if TYPE_CHECKING:
     import pandas as pd
 
 
+#: Differences of ratings, or of means of ratings, that lie closer together differ by rounding.
+_ROUNDING = 1e-9
+
+
 @dataclass(frozen=True)
 class PairedComparison:
     """How the ratings of two stimuli by the same participants differ.
@@ -148,9 +152,11 @@ def compare_pair(
             f"{names[0]} and {names[1]}: got {n} participants who rated both, want at least 2"
         )
     mean = float(differences.mean())
-    # The spread of equal numbers is exactly 0, which rounding of the mean may not give.
-    equal = bool(np.all(differences == differences[0]))
+    # The spread of equal numbers is exactly 0, which means of several ratings do not give.
+    equal = bool(np.ptp(differences) <= _ROUNDING)
     deviation = 0.0 if equal else float(differences.std(ddof=1))
+    if equal and abs(mean) <= _ROUNDING:
+        mean = 0.0
     note = ""
     if equal:
         note = f"all {n} participants gave the same difference, {mean:g}: the t test is undefined"
