@@ -15,7 +15,8 @@ from workbench.dashboards import StudyAnalysis, analyse_study
 from workbench.errors import WorkbenchError
 from workbench.study.analysis import analyse_answers
 from workbench.study.answers import Stimulus
-from workbench.study.database import append_answer, create_study, enrol_participant
+from workbench.study.database import create_study, enrol_participant
+from workbench.study.participation import rate
 from workbench.study.reading import read_answers
 
 NAMES = ("original", "saliency", "uniform")
@@ -33,7 +34,7 @@ def study(tmp_path: Path) -> Path:
     for row in RATINGS.tolist():
         person = enrol_participant(path)
         for stimulus, rating in zip(STIMULI, row, strict=True):
-            append_answer(path, person, stimulus, rating)
+            rate(path, person, stimulus, rating)
     return path
 
 
@@ -76,6 +77,18 @@ def test_the_mean_over_motions_tests_one_number_of_each_participant(study: Path)
     assert found.comparisons[2].t == pytest.approx(expected.statistic)
 
 
+def test_the_mean_over_motions_has_only_what_all_of_them_have(study: Path) -> None:
+    """A difference of stimuli would else be one of motions; with one in common there is none."""
+    answers = read_answers(study)
+    walk, uniform = answers["motion"] == "walk", answers["stimulus"] == "uniform"
+    found = analyse_answers(answers[~(walk & uniform)])[-1]
+    assert found.title == "methods: mean over 2 motions (only stimuli that all of them have)"
+    means = RATINGS.reshape(4, 2, 3).mean(axis=1)[:, :2]
+    np.testing.assert_allclose(found.ratings.to_numpy(), means)
+    alone = answers[answers["stimulus"].eq("original") | walk & ~uniform | ~walk & uniform]
+    assert [found.title for found in analyse_answers(alone)] == ["methods: walk", "methods: jump"]
+
+
 def test_stimuli_have_one_order_in_all_motions(study: Path) -> None:
     """So a method has one colour, whatever was answered first; the original leads."""
     answers = read_answers(study)
@@ -91,7 +104,7 @@ def test_a_clip_that_was_rated_by_one_is_told_and_the_others_are_shown(tmp_path:
     create_study(path, STIMULI)
     person = enrol_participant(path)
     for stimulus in STIMULI[:3]:
-        append_answer(path, person, stimulus, 5)
+        rate(path, person, stimulus, 5)
     analysis = analyse_study(path)
     assert "methods: walk: too few answers to compare" in html(analysis)
     assert "want at least 2" in html(analysis)
@@ -100,7 +113,7 @@ def test_a_clip_that_was_rated_by_one_is_told_and_the_others_are_shown(tmp_path:
 def test_answers_that_came_meanwhile_are_read(study: Path) -> None:
     """And a file that is gone leaves what was read before."""
     analysis = analyse_study(study)
-    append_answer(study, enrol_participant(study), STIMULI[0], 1)
+    rate(study, enrol_participant(study), STIMULI[0], 1)
     analysis.read.click()
     assert analysis.answers is not None
     assert len(analysis.answers) == RATINGS.size + 1

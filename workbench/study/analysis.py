@@ -43,7 +43,8 @@ def analyse_answers(answers: pd.DataFrame) -> list[MotionAnalysis]:
 
     Where a test case has several motions, the mean over its motions follows: the tests are then
     made on one number for each participant and stimulus, over the motions that the participant
-    rated completely.
+    rated completely. It has only stimuli that all motions of the test case have, and is left out
+    where there are not two of them.
 
     Parameters
     ----------
@@ -76,8 +77,12 @@ def analyse_answers(answers: pd.DataFrame) -> list[MotionAnalysis]:
         found += [
             _analysis(f"{case}: {name}", table) for name, table in zip(names, tables, strict=True)
         ]
-        if len(names) > 1:
-            found.append(_analysis(f"{case}: mean over {len(names)} motions", _mean(tables)))
+        shared = _shared(tables)
+        if len(names) > 1 and len(shared) > 1:
+            partly = any(len(table.columns) > len(shared) for table in tables)
+            title = f"{case}: mean over {len(names)} motions"
+            title += " (only stimuli that all of them have)" if partly else ""
+            found.append(_analysis(title, _mean([table[shared] for table in tables])))
     return found
 
 
@@ -93,6 +98,12 @@ def _alike(tables: Sequence[pd.DataFrame]) -> list[pd.DataFrame]:
     names = list(dict.fromkeys(name for table in tables for name in table.columns))
     names.sort(key=lambda name: name != ORIGINAL)
     return [table[[name for name in names if name in table.columns]] for table in tables]
+
+
+def _shared(tables: Sequence[pd.DataFrame]) -> list[str]:
+    """List the columns that all tables have."""
+    first, *others = tables
+    return [name for name in first.columns if all(name in table.columns for table in others)]
 
 
 def _analysis(title: str, ratings: pd.DataFrame) -> MotionAnalysis:
