@@ -290,6 +290,19 @@ def test_a_computation_can_be_cancelled_and_repeated(inspector: KeyframeInspecto
     assert "uniform" in inspector.error_curves
 
 
+def test_what_failed_of_another_clip_does_not_hold_up_computing_again(
+    inspector: KeyframeInspector,
+) -> None:
+    """One press of "again" computes anew, though a clip before it could not be shown."""
+    inspector.open("/no/such/clip.bvh")
+    assert inspector.message
+    inspector.open(CLIP)
+    before = inspector.result
+    inspector.recompute()
+    assert inspector.result is not None
+    assert inspector.result is not before
+
+
 @pytest.mark.parametrize(("n_frames", "most"), [(3, 2), (13, 12), (300, 30), (5000, 60)], ids=str)
 def test_counts_of_a_curve_rise_and_can_be_chosen(n_frames: int, most: int) -> None:
     """They are different, at least 2, and fewer than there are frames."""

@@ -93,7 +93,9 @@ class LiveInspector:
         self.offer()
         plan = self.plan
         wanted = reread(plan.wanted)
-        if not plan.failures and wanted == plan.wanted:
+        # What failed of another clip or method is not what a person wants again.
+        failed = any(job in plan.failures for job in plan.jobs())
+        if not failed and wanted == plan.wanted:
             plan.forget()
         plan.failures.clear()
         plan.wanted = wanted
