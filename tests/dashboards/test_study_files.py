@@ -28,6 +28,22 @@ def test_a_name_alone_lies_in_the_folder_of_studies(folder: Path, name: str) -> 
     assert study_path(name) == folder / "mine.sqlite"
 
 
+@pytest.mark.parametrize(
+    ("name", "file"),
+    [("study 1.5", "study 1.5.sqlite"), ("old.db", "old.db"), ("ANSWERS.CSV", "ANSWERS.CSV")],
+    ids=["a number", "a database", "a table"],
+)
+def test_only_known_endings_are_no_part_of_a_name(folder: Path, name: str, file: str) -> None:
+    """A study that is called after a version is listed with the others."""
+    assert study_path(name) == folder / file
+
+
+def test_a_file_in_the_folder_is_found_by_its_whole_name(folder: Path) -> None:
+    """Whatever its ending is."""
+    (folder / "answers.data").touch()
+    assert study_path("answers.data") == folder / "answers.data"
+
+
 def test_a_path_is_taken_as_it_is(folder: Path, tmp_path: Path) -> None:
     """A whole one, and a file that is there."""
     assert study_path(tmp_path / "other") == tmp_path / "other.sqlite"

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import asyncio
+import re
 from collections.abc import Iterator
 from pathlib import Path
+from urllib.parse import unquote
 
 import pytest
 
 from workbench.dashboards import StudyPreparation, prepare_study
 from workbench.datasets import load
 from workbench.errors import WorkbenchError
+from workbench.mocap.bvh_writer import write_bvh
 from workbench.selection.saliency import Saliency
 from workbench.spaces import PoseSpace
 from workbench.study.database import study_stimuli
@@ -147,6 +150,52 @@ def test_the_preview_shows_what_was_made(preparation: StudyPreparation) -> None:
     assert bytes(preparation.view.player.get_state()["positions"]) != before
 
 
+def test_two_files_of_one_name_are_told_apart_or_refused(
+    preparation: StudyPreparation, tmp_path: Path
+) -> None:
+    """In tables and in the study's file nothing would tell their stimuli apart."""
+    files = [tmp_path / folder / "walk.bvh" for folder in ("a", "b")]
+    for file in files:
+        file.parent.mkdir()
+        write_bvh(load(CLIPS[1])[:80], file)
+    preparation.controls.choose([str(file) for file in files])
+    assert "would both be called walk" in preparation.message
+    assert preparation.controls.save.disabled
+    other = files[1].rename(tmp_path / "b" / "run.bvh")
+    preparation.controls.choose([str(files[0]), str(other)])
+    assert preparation.message == ""
+    assert [item[0].motion for item in preparation.design.items] == ["walk", "run"]
+
+
+def test_a_count_and_a_share_together_are_refused() -> None:
+    """One of them would be dropped silently."""
+    with pytest.raises(WorkbenchError, match=r"count and ratio: got 4 and 0\.05, want at most one"):
+        prepare_study(CLIPS[:1], ["uniform"], count=4, ratio=0.05)
+
+
+def test_the_length_tells_after_how_many_participants_orders_are_balanced(
+    preparation: StudyPreparation,
+) -> None:
+    """Who begins counts, done or not."""
+    assert "each 6 participants who begin." in preparation.view.message.value
+
+
+@pytest.mark.parametrize("folder", ["studies", "elsewhere"])
+def test_the_link_for_participants_tells_a_folder_only_if_it_must(
+    preparation: StudyPreparation,
+    folder: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A study among the others is called by its name."""
+    monkeypatch.setenv("WORKBENCH_STUDIES", str(tmp_path / "studies"))
+    monkeypatch.setenv("SERVER_SOFTWARE", "voila/0")
+    preparation.view.show_saved(tmp_path / folder / "mine.sqlite")
+    [asked] = re.findall(r"take_part\.ipynb\?study=([^\"&]*)", preparation.view.saved.value)
+    expected = "mine.sqlite" if folder == "studies" else str(tmp_path / folder / "mine.sqlite")
+    assert unquote(asked) == expected
+
+
 def test_an_unknown_method_is_refused() -> None:
     """In Python, where whoever wrote it sees the message."""
     with pytest.raises(WorkbenchError, match="selector: got 'none'"):
@@ -171,3 +220,17 @@ def test_making_stimuli_can_be_cancelled_and_begun_again() -> None:
         preparation.close()
 
     asyncio.run(prepare())
+
+
+def test_what_failed_with_other_settings_does_not_hold_up_a_new_start(
+    preparation: StudyPreparation, tmp_path: Path
+) -> None:
+    """One press of "again" makes everything anew, though another clip could not be shown."""
+    preparation.controls.choose([*CLIPS, str(tmp_path / "none.bvh")])
+    assert preparation.message
+    preparation.controls.choose(CLIPS)
+    before = preparation.design.items
+    preparation.view.progress.again.click()
+    after = preparation.design.items
+    assert after == before
+    assert all(new is not old for new, old in zip(after, before, strict=True))

@@ -8,6 +8,7 @@ import ipywidgets as widgets
 
 from workbench.dashboards.shared.layout import FITTING, control_row, seed_field
 from workbench.dashboards.shared.sources import Choice
+from workbench.errors import WorkbenchError
 from workbench.validation import whole_number
 
 #: How the number of keyframes is decided.
@@ -121,8 +122,10 @@ class StudyControls:
         Raises
         ------
         WorkbenchError
-            If the count is no whole number from 2.
+            If the count is no whole number from 2, or a share is given as well.
         """
+        if count is not None and ratio is not None:
+            raise WorkbenchError(f"count and ratio: got {count} and {ratio}, want at most one")
         if count is not None:
             self.count.value = whole_number("count", count, at_least=2)
         if ratio is not None:

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import os
+from contextlib import suppress
 from pathlib import Path
 from urllib.parse import parse_qs
 
-from workbench.errors import WorkbenchError
+from workbench.errors import DataError, WorkbenchError
+from workbench.study.database import study_settings
 
-#: Ending of a study's file.
+#: Ending of a study's file, and endings that are not taken for a part of its name.
 _ENDING = ".sqlite"
+_ENDINGS = (_ENDING, ".sqlite3", ".db", ".csv", ".tsv", ".txt", ".parquet")
 
 
 def studies_folder() -> Path:
@@ -39,15 +42,27 @@ def study_path(name: str | Path) -> Path:
     if not text:
         raise WorkbenchError("study: got no name, want that of a study's file")
     path = Path(text).expanduser()
-    if path.is_file():
-        return path.absolute()
-    return studies_folder() / (path if path.suffix else path.with_suffix(_ENDING))
+    for there in (path.absolute(), studies_folder() / path):
+        if there.is_file():
+            return there
+    known = path.suffix.lower() in _ENDINGS
+    return studies_folder() / (path if known else f"{path}{_ENDING}")
 
 
 def known_studies() -> list[str]:
     """List the names of the studies in the folder, the latest first."""
     files = [path for path in studies_folder().glob(f"*{_ENDING}") if path.is_file()]
     return [path.name for path in sorted(files, key=lambda path: -path.stat().st_mtime)]
+
+
+def study_with_id(study_id: str) -> Path | None:
+    """Find a study in the folder by its id, or tell by None that it is not there."""
+    for name in known_studies():
+        path = studies_folder() / name
+        with suppress(DataError):  # another file that is damaged or no study
+            if study_settings(path).get("id") == study_id:
+                return path
+    return None
 
 
 def study_of_address() -> str:

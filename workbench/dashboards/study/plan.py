@@ -64,7 +64,8 @@ class StudyPlan:
 
     def again(self) -> None:
         """Forget what failed, or everything if nothing did; files are read again."""
-        if not self.failures:
+        # What failed of other settings is not what a person wants again.
+        if not any(job in self.failures for job in self.jobs()):
             self._results.clear()
         self.failures.clear()
         self._sources = {name: reread(source) for name, source in self._sources.items()}
@@ -77,6 +78,7 @@ class StudyPlan:
             if words:
                 name = job.source.name
                 told.append(words if words.startswith(name) else f"{name}: {words}")
+        told += self._alike()
         if not self._controls.names:
             told.append("Choose at least one clip.")
         if not self._controls.methods.value:
@@ -101,6 +103,18 @@ class StudyPlan:
             seed=self._controls.seed.value,
             title=self._controls.title.value.strip() or StudyDesign.title,
         )
+
+    def _alike(self) -> list[str]:
+        """Say which clips tables would call the same."""
+        clips: dict[str, list[str]] = {}
+        for original, *_ in self.items:
+            clips.setdefault(original.motion, []).append(str(original.parameters["clip"]))
+        return [
+            f"{' and '.join(paths)}: would both be called {name}, want names of their own: "
+            "rename a file."
+            for name, paths in clips.items()
+            if len(paths) > 1
+        ]
 
     def _rebuildings(self) -> list[Rebuilding]:
         controls = self._controls

@@ -15,6 +15,7 @@ from workbench.dashboards.shared.home import Home
 from workbench.dashboards.shared.layout import FITTING, alert
 from workbench.dashboards.shared.progress_view import ProgressView
 from workbench.dashboards.study.controls import StudyControls
+from workbench.dashboards.study.files import studies_folder
 from workbench.dashboards.study.tables import stimuli_table
 from workbench.study.answers import Stimulus
 from workbench.study.design import StudyDesign
@@ -23,6 +24,10 @@ from workbench.widgets.player import MotionPlayer, motion_traits
 
 #: Pages of notebooks give links no colour of their own.
 _LINK = "color: var(--jp-content-link-color, #1565c0); text-decoration: underline"
+_VISIBLE_NAME = (
+    "<small>Participants can read the file's name in the address of their page: it should name "
+    "no method.</small>"
+)
 
 
 class PreparationView:
@@ -65,6 +70,7 @@ class PreparationView:
                 self.shown,
                 self.player,
                 controls.file_row,
+                widgets.HTML(_VISIBLE_NAME),
                 self.saved,
             ],
             layout=widgets.Layout(width="100%"),
@@ -102,7 +108,9 @@ class PreparationView:
         """Say where the study is and how participants get there."""
         words = f"The study is in <b>{escape(str(path))}</b>. "
         if os.environ.get("SERVER_SOFTWARE", "").startswith("voila"):
-            address = f"take_part.ipynb?study={quote(str(path))}{_theme()}"
+            # A folder is nothing that participants need to know.
+            name = path.name if path.parent == studies_folder() else str(path)
+            address = f"take_part.ipynb?study={quote(name)}{_theme()}"
             link = f'<a href="{escape(address)}" target="_blank" style="{_LINK}">'
             words += f"{link}Open the participants' page</a>."
         else:
@@ -134,7 +142,7 @@ def _about(design: StudyDesign) -> str:
     words = (
         f"{len(design.items)} clips, {len(design.stimuli)} ratings, about "
         f"{max(1, round(design.minutes))} minutes for each participant. Orders are balanced over "
-        f"each {block} participants."
+        f"each {block} participants who begin."
     )
     return f'<div style="line-height: 1.4">{escape(words)}</div>'
 
