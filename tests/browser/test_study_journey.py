@@ -110,6 +110,8 @@ def test_a_participant_goes_through_a_study_by_keyboard(
     open_and_run(page, lab, notebook)
     item(page, "Movement 2 of 2")
     page.locator(".wb-rating-state[title=stored]").first.wait_for()
+    assert page.get_by_text(f"You go on as {code}.").is_visible()
+    assert violations(page, ".jp-OutputArea-output") == []
     assert page.locator(".wb-rating input:checked").evaluate_all(
         "(inputs) => inputs.map((input) => input.value)"
     ) == ["3"]
@@ -137,7 +139,7 @@ def test_a_study_is_prepared_and_analysed(lab: Lab, tmp_path: Path, visit: Visit
         for index, shown in enumerate(run.items):
             for place, stimulus in enumerate(shown):
                 run.rate(index, place, 8 - len(stimulus.name) % 5 + (index + participant) % 3)
-            run.settle(index)
+            run.settle(index, run.ratings(index))
 
     page.get_by_role("button", name="Read answers").click()
     page.get_by_text("9 ratings by 3 participants").wait_for()

@@ -15,7 +15,7 @@ from jupyter_client.manager import start_new_kernel
 import workbench
 from workbench.datasets import load
 from workbench.study.database import read_study
-from workbench.study.design import StudyDesign, store_design
+from workbench.study.design import StudyDesign, load_design, store_design
 from workbench.study.participation import participants, ratings_given
 from workbench.study.run import StudyRun
 from workbench.study.stimuli import Clip, make_stimuli
@@ -30,8 +30,8 @@ from workbench.dashboards import take_part_in_study
 from workbench.dashboards.study import item_view
 item_view.monotonic = count().__next__  # every look at the clock is a second later
 page = take_part_in_study({path!r})
-if {code!r}:
-    page.memory.recalled = {code!r}
+if {word!r}:
+    page.memory.recalled = {word!r}
 else:
     page.begin.click()
 print("code", page.run.code, page.index, *page.form.stored, flush=True)
@@ -112,8 +112,8 @@ def start(tmp_path: Path) -> Iterator[Any]:
 def test_no_answer_is_lost_when_the_kernel_is_killed(study: Path, start: Any) -> None:
     """Two take part at once; one kernel is killed, and another one goes on for it."""
     first, second = start(), start()
-    first.run(TAKE_PART.format(path=str(study), code=""))
-    second.run(TAKE_PART.format(path=str(study), code=""))
+    first.run(TAKE_PART.format(path=str(study), word=""))
+    second.run(TAKE_PART.format(path=str(study), word=""))
     [[code, *_]] = first.lines("code", 1)
     acknowledged = first.lines("stored", 8)  # two items and two figures of the third
     first.kill()
@@ -129,7 +129,7 @@ def test_no_answer_is_lost_when_the_kernel_is_killed(study: Path, start: Any) ->
     here, ratings = run.current, run.ratings(run.current or 0)
 
     third = start()
-    third.run(TAKE_PART.format(path=str(study), code=code))
+    third.run(TAKE_PART.format(path=str(study), word=f"{load_design(study).study_id} {code}"))
     [[again, index, *stored]] = third.lines("code", 1)
     assert again == code
     assert int(index) == here

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sqlite3
 from collections.abc import Iterator
 from pathlib import Path
@@ -11,7 +12,7 @@ import ipywidgets
 import numpy as np
 import pytest
 
-from workbench.dashboards.study import item_view, participation
+from workbench.dashboards.study import item_motions, item_view
 from workbench.dashboards.study.participation import StudyParticipation, take_part_in_study
 from workbench.datasets import load
 from workbench.errors import DataError, WorkbenchError
@@ -176,7 +177,8 @@ def test_another_kernel_goes_on_where_the_page_was(page: StudyParticipation, stu
         if way == "recalled":
             other.memory.recalled = page.memory.word
         else:
-            other.code.value = page.memory.word.lower()
+            assert page.run is not None
+            other.code.value = page.run.code.lower()
             other.go_on.click()
         assert other.index == 1
         assert other.form.stored == [2, 0, 0]
@@ -244,30 +246,190 @@ def _below(widget: ipywidgets.Widget) -> Iterator[ipywidgets.Widget]:
 
 @pytest.mark.parametrize(
     ("name", "words"),
-    [("", "No study was prepared yet"), ("none", "there is no such file")],
+    [("", "No study was prepared yet"), ("none", "This study cannot be opened")],
     ids=["none at all", "a missing one"],
 )
 def test_a_missing_study_is_told(
     name: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The page says so and offers nothing that cannot work."""
+    """The page says so without a path, and offers nothing that cannot work."""
     monkeypatch.setenv("WORKBENCH_STUDIES", str(tmp_path))
     page = take_part_in_study(name)
     assert words in page.message
+    assert str(tmp_path) not in page.message
+    if name:
+        assert f"{tmp_path / 'none.sqlite'}: there is no such file" in page.failure
     page.close()
 
 
+@pytest.fixture
+def two_studies(design: StudyDesign, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Path]:
+    """Store two studies in the folder; the first one is older."""
+    monkeypatch.setenv("WORKBENCH_STUDIES", str(tmp_path))
+    monkeypatch.delenv("QUERY_STRING", raising=False)
+    paths = [tmp_path / "first.sqlite", tmp_path / "second.sqlite"]
+    for age, path in enumerate(paths):
+        made = StudyDesign(design.stimuli, design.practice, seed=1, title=f"The {path.stem} one")
+        store_design(path, made)
+        os.utime(path, (1e9 + age, 1e9 + age))
+    return paths
+
+
+@pytest.mark.parametrize(
+    ("query", "title"),
+    [("study=first&token=x", "The first one"), ("token=x", "The second one")],
+    ids=["asked for", "latest"],
+)
 def test_the_page_finds_the_study_of_its_address(
-    design: StudyDesign, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    two_studies: list[Path], query: str, title: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """A name in the address comes first, else the study that was prepared last."""
-    monkeypatch.setenv("WORKBENCH_STUDIES", str(tmp_path))
-    for title in ("first", "second"):
-        store_design(tmp_path / f"{title}.sqlite", StudyDesign(design.stimuli, seed=1, title=title))
-    monkeypatch.setenv("QUERY_STRING", "study=first&token=x")
+    monkeypatch.setenv("QUERY_STRING", query)
     page = take_part_in_study()
-    assert "first" in page.root.children[-1].children[0].value
+    assert title in page.root.children[-1].children[0].value
     page.close()
+
+
+@pytest.mark.parametrize("asked", ["", "second"], ids=["none asked for", "another asked for"])
+def test_a_reloaded_page_goes_on_in_its_own_study(two_studies: list[Path], asked: str) -> None:
+    """Though another was prepared meanwhile; but not in the place of one that is asked for."""
+    page = take_part_in_study("first")
+    practise(page)
+    os.utime(two_studies[1], (4e9, 4e9))  # later than what was just enrolled in the first one
+    other = take_part_in_study(asked)
+    assert "The second one" in other.root.children[-1].children[0].value
+    assert other.memory.name == page.memory.name
+    other.memory.recalled = page.memory.word
+    if asked:
+        assert other.run is None
+    else:
+        assert other.run is not None
+        assert other.run.design.title == "The first one"
+        assert other.run.participant == 1
+    page.close()
+    other.close()
+
+
+def test_a_tab_of_a_pilot_is_nobody_in_a_file_that_was_made_anew(
+    page: StudyParticipation, study: Path, design: StudyDesign
+) -> None:
+    """Its participant 1 does not become the real one."""
+    practise(page)
+    study.unlink()
+    store_design(study, design)
+    real = take_part_in_study(study)
+    real.begin.click()
+    again = take_part_in_study(study)
+    again.memory.recalled = page.memory.word
+    assert again.run is None
+    assert again.message == ""
+    for one in (real, again):
+        one.close()
+
+
+@pytest.mark.parametrize("practice", [True, False], ids=["with", "without"])
+def test_an_exercise_is_announced_if_there_is_one(
+    design: StudyDesign, tmp_path: Path, practice: bool
+) -> None:
+    """Without one the page begins with what counts, and says nothing else."""
+    made = StudyDesign(design.stimuli, design.practice if practice else ())
+    store_design(tmp_path / "study", made)
+    page = take_part_in_study(tmp_path / "study")
+    assert ("exercise" in page.root.children[-1].children[0].value) == practice
+    page.begin.click()
+    assert page.index == (-1 if practice else 0)
+    page.close()
+
+
+def test_a_reload_does_not_lead_back_to_the_exercise(page: StudyParticipation, study: Path) -> None:
+    """Who has done it goes on with the first movement; who has not does it."""
+    page.begin.click()
+    for index in (-1, 0):
+        assert page.index == index
+        other = take_part_in_study(study)
+        other.memory.recalled = page.memory.word
+        assert other.index == index
+        other.close()
+        if index < 0:
+            watch(page)
+            give(page, 9, 2)
+            finish(page)
+
+
+def test_only_ratings_that_were_seen_are_settled(page: StudyParticipation, study: Path) -> None:
+    """What another page of the same person changed is shown before it counts."""
+    practise(page)
+    watch(page)
+    give(page, 5, 6, 7)
+    other = take_part_in_study(study)
+    other.memory.recalled = page.memory.word
+    give(other, 9)
+    finish(page)
+    assert "changed in another window" in page.form.message
+    assert page.index == 0
+    assert page.form.stored == page.form.chosen == [9, 6, 7]
+    assert participants(study) == {1: 0}
+    finish(page)
+    assert page.index == 1
+    assert page.form.message == ""
+    assert participants(study) == {1: 3}
+    other.close()
+
+
+def test_a_page_says_who_it_remembers_and_lets_others_begin(
+    page: StudyParticipation, study: Path
+) -> None:
+    """A duplicated tab has a copy of the memory, and may be another person's."""
+    practise(page)
+    assert page.run is not None
+    assert not page._recalled.children
+    copy = take_part_in_study(study)
+    copy.memory.recalled = page.memory.word
+    assert f"You go on as {page.run.code}." in copy._recalled.children[0].value
+    copy.somebody_else.click()
+    assert copy.memory.word == ""
+    assert not copy._recalled.children
+    copy.begin.click()
+    assert copy.run is not None
+    assert copy.run.participant == 2
+    copy.close()
+
+
+def test_a_failure_makes_nobody_somebody_else(
+    page: StudyParticipation, study: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Who begins after somebody's code or memory failed is new."""
+    practise(page)
+    assert page.run is not None
+
+    def fail(_: object) -> None:
+        raise DataError("cmu/01_01-jump: is not the motion with which the study was prepared")
+
+    for number, way in enumerate(("recalled", "typed"), 2):
+        other = take_part_in_study(study)
+        with monkeypatch.context() as patch:
+            patch.setattr(item_motions, "stimulus_motion", fail)
+            if way == "recalled":
+                other.memory.recalled = page.memory.word
+            else:
+                other.code.value = page.run.code
+                other.go_on.click()
+            assert "That did not work" in other.message
+        other.begin.click()
+        assert other.run is not None
+        assert other.run.participant == number
+        other.close()
+
+
+def test_a_memory_that_cannot_be_looked_up_is_told(page: StudyParticipation, study: Path) -> None:
+    """A file that is gone for the moment is not taken for one without this participant."""
+    practise(page)
+    other = take_part_in_study(study)
+    study.unlink()
+    other.memory.recalled = page.memory.word
+    assert "That did not work" in other.message
+    assert "there is no such file" in other.failure
+    other.close()
 
 
 def test_an_item_that_cannot_be_shown_is_told(
@@ -279,7 +441,7 @@ def test_an_item_that_cannot_be_shown_is_told(
         raise DataError("cmu/01_01-jump: is not the motion with which the study was prepared")
 
     with monkeypatch.context() as patch:
-        patch.setattr(participation, "stimulus_motion", fail)
+        patch.setattr(item_motions, "stimulus_motion", fail)
         page.begin.click()
         assert "That did not work" in page.message
         assert page.begin in page.root.children[-1].children[1].children
@@ -289,7 +451,7 @@ def test_an_item_that_cannot_be_shown_is_told(
     watch(page)
     give(page, 9, 2)
     with monkeypatch.context() as patch:
-        patch.setattr(participation, "stimulus_motion", fail)
+        patch.setattr(item_motions, "stimulus_motion", fail)
         finish(page)
         assert page.form.message.startswith("That did not work")
         assert page.player.positions.size

@@ -14,27 +14,31 @@ import pytest
 from workbench.errors import DataError, WorkbenchError
 from workbench.study.answers import Stimulus
 from workbench.study.database import (
-    append_answer,
     create_study,
     enrol_participant,
     read_study,
     study_stimuli,
 )
+from workbench.study.participation import participants, rate
 from workbench.study.reading import read_answers
 from workbench.study.study_file import SCHEMA_VERSION
 
 STIMULI = [Stimulus("methods", "walking", f"method {i}", {"count": i}) for i in range(40)]
 
-#: Takes part in the study given, telling of each answer once it is stored.
+#: Takes part in the study given, telling of each rating once it is stored and once it is settled.
 PARTICIPANT = """
 import sys
 from pathlib import Path
-from workbench.study.database import append_answer, enrol_participant, study_stimuli
+from workbench.study.database import enrol_participant, study_stimuli
+from workbench.study.participation import rate, settle
 path = Path(sys.argv[1])
 person = enrol_participant(path)
 for position, stimulus in enumerate(study_stimuli(path), 1):
-    append_answer(path, person, stimulus, 1 + position % 10, position)
-    print(person, position, flush=True)
+    rating = 1 + position % 10
+    rate(path, person, stimulus, rating, position)
+    print("rated", person, position, flush=True)
+    settle(path, person, {stimulus: rating})
+    print("settled", person, position, flush=True)
 """
 
 
@@ -67,7 +71,7 @@ def test_stimuli_keep_their_order_and_parameters(study):
 
 
 def test_killed_at_any_moment_no_answer_is_lost(study):
-    """After kill -9 every answer that was acknowledged is there, and the study goes on."""
+    """After kill -9 all that was acknowledged is there, and the study goes on."""
     acknowledged = []
     for after in (1, 4, 9):
         process = take_part(study)
@@ -76,13 +80,17 @@ def test_killed_at_any_moment_no_answer_is_lost(study):
         lines += process.stdout.readlines()
         process.wait()
         assert process.returncode == -signal.SIGKILL
-        acknowledged += [tuple(map(int, line.split())) for line in lines]
+        acknowledged += [line.split() for line in lines]
     answers = read_answers(study)
-    stored = set(zip(answers["participant"].astype(int), answers["position"], strict=True))
-    assert stored >= set(acknowledged)
+    stored = set(zip(answers["participant"], answers["position"].astype(str), strict=True))
+    rated = {(person, position) for word, person, position in acknowledged if word == "rated"}
+    assert stored >= rated
     # At most the one answer that was being acknowledged may be there besides.
-    assert len(stored) <= len(acknowledged) + 3
-    append_answer(study, enrol_participant(study), STIMULI[0], 5)
+    assert len(stored) <= len(rated) + 3
+    for person, n_settled in participants(study).items():
+        told = sum(line[:2] == ["settled", str(person)] for line in acknowledged)
+        assert told <= n_settled <= told + 1
+    rate(study, enrol_participant(study), STIMULI[0], 5)
     assert len(read_study(study)) == len(stored) + 1
 
 
@@ -92,43 +100,13 @@ def test_two_write_at_once(study):
     assert [process.wait(timeout=120) for process in processes] == [0, 0]
     for process in processes:
         process.stdout.close()
+    assert participants(study) == {1: 40, 2: 40}
     answers = read_study(study)
     assert answers["participant"].value_counts().to_dict() == {"1": 40, "2": 40}
     assert answers.groupby("participant")["position"].apply(list).tolist() == [
         list(range(1, 41)),
         list(range(1, 41)),
     ]
-
-
-def test_an_answer_may_be_sent_again_but_not_changed(study):
-    """A reloaded page sends its last answer again; a different one is refused."""
-    person = enrol_participant(study)
-    for _ in range(2):
-        append_answer(study, person, STIMULI[3], 6, 1)
-    assert len(read_study(study)) == 1
-    with pytest.raises(DataError, match=r"has rated .* with 6 before, got 7"):
-        append_answer(study, person, STIMULI[3], 7, 1)
-    assert read_study(study)["rating"].tolist() == [6]
-
-
-@pytest.mark.parametrize(
-    ("participant", "stimulus", "rating", "error", "message"),
-    [
-        (2, STIMULI[0], 5, DataError, "has no participant 2"),
-        ("1", STIMULI[0], 5, WorkbenchError, "participant: got '1', want a whole number"),
-        (1, Stimulus("methods", "walking", "none"), 5, DataError, "has no stimulus methods"),
-        (1, STIMULI[0], 11, DataError, "rating: got 11"),
-        (1, STIMULI[0], 0, DataError, "rating: got 0"),
-    ],
-    ids=["unknown participant", "no number", "unknown stimulus", "too high", "too low"],
-)
-def test_a_wrong_answer_is_not_stored(study, participant, stimulus, rating, error, message):
-    """The refusal names what is wrong and leaves the file as it was."""
-    enrol_participant(study)
-    before = study.read_bytes()
-    with pytest.raises(error, match=message):
-        append_answer(study, participant, stimulus, rating)
-    assert study.read_bytes() == before
 
 
 def test_a_file_that_is_there_is_kept(study, tmp_path):
@@ -162,7 +140,7 @@ def test_a_study_without_answers_says_so(study):
 
 def test_a_file_that_is_no_longer_whole_is_refused(study):
     """A page overwritten anywhere in the tables is noticed."""
-    append_answer(study, enrol_participant(study), STIMULI[0], 5)
+    rate(study, enrol_participant(study), STIMULI[0], 5)
     content = bytearray(study.read_bytes())
     content[4096:4296] = b"\xa5" * 200
     study.write_bytes(content)
@@ -183,7 +161,7 @@ def test_a_file_that_is_no_longer_whole_is_refused(study):
 )
 def test_a_file_of_another_kind_is_refused(study, statement, message):
     """Nothing is read from a file whose meaning is not certain."""
-    append_answer(study, enrol_participant(study), STIMULI[0], 5)
+    rate(study, enrol_participant(study), STIMULI[0], 5)
     changed(study, statement)
     with pytest.raises(DataError, match=message):
         read_study(study)

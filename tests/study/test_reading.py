@@ -7,7 +7,8 @@ import pytest
 
 from workbench.errors import DataError
 from workbench.study.answers import Stimulus, check_answers
-from workbench.study.database import append_answer, create_study, enrol_participant
+from workbench.study.database import create_study, enrol_participant
+from workbench.study.participation import rate
 from workbench.study.reading import read_answers, write_csv
 
 HEAD = "participant,test_case,motion,stimulus,rating"
@@ -47,7 +48,7 @@ def test_a_study_reads_as_its_export_does(answers, tmp_path):
     for person, index, rating, position in ((1, 0, 9, 1), (1, 1, 7, 2), (2, 0, 10, 2)):
         if position == 1 or person == 2:
             assert enrol_participant(path) == person
-        append_answer(path, person, shown[index], rating, position)
+        rate(path, person, shown[index], rating, position)
     pd.testing.assert_frame_equal(read_answers(path), answers)
 
 

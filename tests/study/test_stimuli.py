@@ -14,10 +14,12 @@ from workbench.interpolation.slerp import Slerp
 from workbench.mocap.bvh_writer import write_bvh
 from workbench.mocap.motion import Motion
 from workbench.selection.saliency import Saliency
-from workbench.study import stimuli
+from workbench.study import design
 from workbench.study.answers import Stimulus
 from workbench.study.database import create_study
 from workbench.study.design import StudyDesign, load_design, store_design
+from workbench.study.order import participant_code
+from workbench.study.run import StudyRun
 from workbench.study.stimuli import Clip, Method, make_stimuli, practice_stimuli, stimulus_motion
 
 JUMP = "cmu/01_01-jump"
@@ -48,9 +50,9 @@ def test_a_stimulus_is_made_again_from_its_study_file(
     """Keyframes are the original's, frames between them slerp's, the root's path the original's."""
     made = make_stimuli(clip, ["uniform"], ratio=0.03, random_state=4)
     store_design(tmp_path / "study", StudyDesign(made, practice_stimuli(clip), seed=5))
-    design = load_design(tmp_path / "study")
-    assert design == StudyDesign(made, practice_stimuli(clip), seed=5)
-    original, rebuilt = (stimulus_motion(stimulus) for stimulus in design.stimuli)
+    stored = load_design(tmp_path / "study")
+    assert stored == StudyDesign(made, practice_stimuli(clip), seed=5)
+    original, rebuilt = (stimulus_motion(stimulus) for stimulus in stored.stimuli)
     np.testing.assert_array_equal(original.rotations, jump.rotations)
     keyframes = np.linspace(0, len(jump) - 1, 9).round().astype(int)
     expected = Slerp().interpolate(jump, keyframes)
@@ -105,17 +107,21 @@ def test_methods_that_cannot_be_compared_are_refused(
         make_stimuli(clip, methods, count=4)
 
 
-def test_a_clip_that_was_edited_is_refused(jump: Motion, tmp_path: Path) -> None:
+@pytest.mark.parametrize("edited", ["the root's path", "the speed"])
+def test_a_clip_that_was_edited_is_refused(jump: Motion, tmp_path: Path, edited: str) -> None:
     """Participants would see something else than those before them."""
     path = tmp_path / "own.bvh"
     write_bvh(jump[:60], path)
     original, _ = make_stimuli(Clip.from_start(str(path), load(path)), ["uniform"], count=4)
-    assert len(stimulus_motion(original)) == 60
-    lower = jump.root_translation - [0.0, 1.0, 0.0]
-    write_bvh(replace(jump, root_translation=lower)[:60], path)
-    stimuli.forget_clips()  # as in a new kernel
+    changes = {
+        "the root's path": {"root_translation": jump.root_translation - [0.0, 1.0, 0.0]},
+        "the speed": {"frame_time": 2 * jump.frame_time},
+    }
+    write_bvh(replace(jump, **changes[edited])[:60], path)
     with pytest.raises(DataError, match="is not the motion with which the study was prepared"):
         stimulus_motion(original)
+    write_bvh(jump[:60], path)
+    assert len(stimulus_motion(original)) == 60
 
 
 @pytest.mark.parametrize(
@@ -136,6 +142,44 @@ def test_parameters_that_make_no_motion_are_refused(
     wrong = Stimulus(*stimulus.key, {**stimulus.parameters, **change})
     with pytest.raises(DataError, match=message):
         stimulus_motion(wrong)
+
+
+def test_a_code_of_one_study_is_nobodys_in_another(
+    clip: Clip, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Even if both have the same seed, and number 1 took part in both; orders are the same."""
+    ids = iter(["1" * 16, "2" * 16])
+    monkeypatch.setattr(design, "token_hex", lambda _: next(ids))
+    made = make_stimuli(clip, ["uniform"], count=4)
+    runs = []
+    for name in ("pilot", "real"):
+        store_design(tmp_path / name, StudyDesign(made))
+        runs.append(StudyRun.begin(tmp_path / name))
+    pilot, real = runs
+    assert pilot.items == real.items
+    assert StudyRun.resume(tmp_path / "pilot", pilot.code).participant == 1
+    with pytest.raises(WorkbenchError, match="code: got"):
+        StudyRun.resume(tmp_path / "real", pilot.code)
+
+
+def test_each_stored_study_has_an_id_of_its_own(clip: Clip, tmp_path: Path) -> None:
+    """It is drawn when the file is made, and stays."""
+    made = make_stimuli(clip, ["uniform"], count=4)
+    for name in ("one", "two"):
+        store_design(tmp_path / name, StudyDesign(made))
+    one, two = load_design(tmp_path / "one"), load_design(tmp_path / "two")
+    assert one == two
+    assert one.study_id != two.study_id
+    assert one.study_id == load_design(tmp_path / "one").study_id
+
+
+def test_a_code_that_was_not_given_yet_is_nobodys(clip: Clip, tmp_path: Path) -> None:
+    """As of a file that was restored from before somebody began."""
+    store_design(tmp_path / "study", StudyDesign(make_stimuli(clip, ["uniform"], count=4)))
+    code = participant_code(1, load_design(tmp_path / "study").study_id)
+    with pytest.raises(WorkbenchError, match="which nobody was given") as caught:
+        StudyRun.resume(tmp_path / "study", code)
+    assert not isinstance(caught.value, DataError)
 
 
 def test_a_study_without_a_design_says_so(tmp_path: Path) -> None:

@@ -1,7 +1,7 @@
-"""A running study: its stimuli, its participants and their answers.
+"""A study's file: making it, enrolling participants, and reading what is in it.
 
-All of it is in one SQLite file, see :mod:`workbench.study.study_file`. Each answer is a
-transaction of its own that is on the disk before the call returns.
+All of a study is in one SQLite file, see :mod:`workbench.study.study_file`. How answers get
+into it tells :mod:`workbench.study.participation`.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from workbench.errors import DataError, WorkbenchError
-from workbench.study.answers import COLUMNS, Stimulus, check_position, check_rating, check_rows
+from workbench.study.answers import COLUMNS, Stimulus, check_rows
 from workbench.study.study_file import (
     APPLICATION_ID,
     SCHEMA,
@@ -88,56 +88,6 @@ def enrol_participant(path: str | Path) -> int:
         number = database.execute("INSERT INTO participants DEFAULT VALUES").lastrowid
     assert number is not None  # an insertion has one
     return number
-
-
-def append_answer(
-    path: str | Path, participant: int, stimulus: Stimulus, rating: int, position: int = 0
-) -> None:
-    """Store one answer; when this returns, it is on the disk.
-
-    The same answer once more changes nothing, so that a page which was reloaded before it
-    heard of its answer's arrival may send it again.
-
-    Parameters
-    ----------
-    path : path-like
-        A study.
-    participant : int
-        Number from :func:`enrol_participant`.
-    stimulus : Stimulus
-        One of the study's; its names are what counts.
-    rating : int
-        From 1 to 10.
-    position : int
-        Place in the order that this participant sees, from 1; 0: not told.
-
-    Raises
-    ------
-    DataError
-        If the file is no study or cannot be written, the participant or the stimulus is
-        unknown to it, the rating is out of range, or this participant has rated the stimulus
-        differently before.
-    WorkbenchError
-        If the participant is no number.
-    """
-    path = Path(path)
-    rating, position = check_rating(rating), check_position(position)
-    with transaction(path) as database:
-        stimulus_id = stimulus_of(database, path, participant, stimulus)
-        before = database.execute(
-            "SELECT rating FROM answers WHERE participant = ? AND stimulus_id = ?",
-            (participant, stimulus_id),
-        ).fetchone()
-        if before is None:
-            database.execute(
-                "INSERT INTO answers VALUES (?, ?, ?, ?, 1)",
-                (participant, stimulus_id, rating, position),
-            )
-        elif before[0] != rating:
-            raise DataError(
-                f"{path}: participant {participant} has rated {' / '.join(stimulus.key)} with "
-                f"{before[0]} before, got {rating}"
-            )
 
 
 def stimulus_of(

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from secrets import token_hex
 from typing import Any
 
 from workbench.errors import DataError, WorkbenchError
@@ -35,11 +36,14 @@ class StudyDesign:
     practice : tuple of Stimulus
         What is shown side by side first, of which no rating is stored; may be empty.
     seed : int
-        Decides each participant's order and codes.
+        Decides each participant's order.
     title : str
         What participants are told that it is about. They must not learn of methods from it.
     question : str
         What is asked.
+    study_id : str
+        Tells the file from those of all other studies, copies of the same design among them;
+        empty as long as it is not stored.
 
     Examples
     --------
@@ -53,6 +57,8 @@ class StudyDesign:
     seed: int = 0
     title: str = "How motions look"
     question: str = QUESTION
+    # No part of equality: two studies may show the same.
+    study_id: str = field(default="", compare=False)
 
     def __post_init__(self) -> None:
         whole_number("seed", self.seed, at_least=0)
@@ -100,7 +106,7 @@ class StudyDesign:
 
 
 def store_design(path: str | Path, design: StudyDesign) -> None:
-    """Make the file of a study, in which answers are then gathered.
+    """Make the file of a study, in which answers are then gathered, with an id of its own.
 
     Parameters
     ----------
@@ -117,6 +123,8 @@ def store_design(path: str | Path, design: StudyDesign) -> None:
         If there is no stimulus, or one comes twice.
     """
     settings = {
+        # Drawn anew each time, whatever the seed: codes must not fit another file.
+        "id": token_hex(8),
         "title": design.title,
         "question": design.question,
         "seed": design.seed,
@@ -141,6 +149,7 @@ def load_design(path: str | Path) -> StudyDesign:
             seed=settings["seed"],
             title=str(settings["title"]),
             question=str(settings["question"]),
+            study_id=str(settings["id"]),
         )
     except (KeyError, TypeError, WorkbenchError) as error:
         raise DataError(f"{path}: tells no design of a study ({error})") from None

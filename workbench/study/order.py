@@ -104,21 +104,23 @@ def balanced_order(n: int, turn: int, purpose: str) -> list[int]:
     return order[::-1] if square else order
 
 
-def participant_code(participant: int, seed: int) -> str:
+def participant_code(participant: int, study_id: str) -> str:
     """Give the code by which a participant goes on: the number, and letters against mistyping.
+
+    The letters differ from study to study, so that hardly any code of one fits another.
 
     Examples
     --------
-    >>> participant_of(participant_code(12, seed=7), seed=7)
+    >>> participant_of(participant_code(12, "a study"), "a study")
     12
     """
     number = whole_number("participant", participant)
-    digest = _digest(f"{seed}/code of {number}")
+    digest = _digest(f"{study_id}/code of {number}")
     letters = (_CODE_LETTERS[digest >> shift & 15] for shift in (0, 4, 8))
     return f"{number}-{''.join(letters)}"
 
 
-def participant_of(code: str, seed: int) -> int:
+def participant_of(code: str, study_id: str) -> int:
     """Tell whose code it is.
 
     Raises
@@ -129,7 +131,7 @@ def participant_of(code: str, seed: int) -> int:
     found = re.fullmatch(r"0*([1-9][0-9]{0,8})\s*-?\s*([A-Z]{3})", code.strip().upper())
     if found is not None:
         number = int(found[1])
-        if participant_code(number, seed).endswith(found[2]):
+        if participant_code(number, study_id).endswith(found[2]):
             return number
     raise WorkbenchError(
         f"code: got {code.strip()!r}, want the number and the three letters that were shown at "

@@ -7,7 +7,7 @@ returns; when the participant goes on, the item's ratings are settled.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -15,6 +15,10 @@ from workbench.errors import DataError
 from workbench.study.answers import Stimulus, check_position, check_rating
 from workbench.study.database import check_participant, stimulus_of
 from workbench.study.study_file import check_schema, transaction
+
+
+class RatingChangedError(DataError):
+    """A rating is another one than the participant saw, as when two pages are open."""
 
 
 @dataclass(frozen=True)
@@ -38,10 +42,21 @@ def rate(
 ) -> None:
     """Store a rating, or change one that is not settled; when this returns, it is on the disk.
 
+    The same rating once more changes nothing, so that a page which was reloaded before it
+    heard of its arrival may send it again.
+
     Parameters
     ----------
-    path, participant, stimulus, rating, position
-        As for :func:`workbench.study.database.append_answer`.
+    path : path-like
+        A study.
+    participant : int
+        Number from :func:`workbench.study.database.enrol_participant`.
+    stimulus : Stimulus
+        One of the study's; its names are what counts.
+    rating : int
+        From 1 to 10.
+    position : int
+        Place in the order that this participant sees, from 1; 0: not told.
 
     Raises
     ------
@@ -72,11 +87,22 @@ def rate(
             )
 
 
-def settle(path: str | Path, participant: int, stimuli: Sequence[Stimulus]) -> None:
+def settle(path: str | Path, participant: int, ratings: Mapping[Stimulus, int]) -> None:
     """Keep a participant's ratings of an item as they are, all of them or none.
+
+    Parameters
+    ----------
+    path : path-like
+        A study.
+    participant : int
+        Number from :func:`workbench.study.database.enrol_participant`.
+    ratings : mapping of Stimulus to int
+        What the participant sees of the item and agrees to.
 
     Raises
     ------
+    RatingChangedError
+        If something else is stored.
     DataError
         If the file is no study or cannot be written, the participant or a stimulus is unknown
         to it, or one is not rated.
@@ -85,15 +111,21 @@ def settle(path: str | Path, participant: int, stimuli: Sequence[Stimulus]) -> N
     """
     path = Path(path)
     with transaction(path) as database:
-        for stimulus in stimuli:
+        for stimulus, seen in ratings.items():
             row = participant, stimulus_of(database, path, participant, stimulus)
-            done = database.execute(
+            stored = database.execute(
+                "SELECT rating FROM answers WHERE participant = ? AND stimulus_id = ?", row
+            ).fetchone()
+            about = f"{path}: participant {participant} has"
+            if stored is None:
+                raise DataError(f"{about} not rated {' / '.join(stimulus.key)}")
+            if stored[0] != seen:
+                raise RatingChangedError(
+                    f"{about} rated {' / '.join(stimulus.key)} with {stored[0]}, but sees {seen}"
+                )
+            database.execute(
                 "UPDATE answers SET settled = 1 WHERE participant = ? AND stimulus_id = ?", row
             )
-            if done.rowcount == 0:
-                raise DataError(
-                    f"{path}: participant {participant} has not rated {' / '.join(stimulus.key)}"
-                )
 
 
 def ratings_given(path: str | Path, participant: int) -> dict[tuple[str, str, str], Given]:

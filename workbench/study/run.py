@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from workbench.errors import WorkbenchError
@@ -9,7 +10,7 @@ from workbench.study.answers import Stimulus
 from workbench.study.database import enrol_participant
 from workbench.study.design import StudyDesign, load_design
 from workbench.study.order import participant_code, participant_of
-from workbench.study.participation import rate, ratings_given, settle
+from workbench.study.participation import participants, rate, ratings_given, settle
 
 
 class StudyRun:
@@ -59,15 +60,20 @@ class StudyRun:
 
         Raises
         ------
+        DataError
+            If the file is no such study.
         WorkbenchError
             If it is nobody's code.
         """
-        return cls(path, participant_of(code, load_design(path).seed))
+        number = participant_of(code, load_design(path).study_id)
+        if number not in participants(path):
+            raise WorkbenchError(f"code: got {code.strip()!r}, which nobody was given")
+        return cls(path, number)
 
     @property
     def code(self) -> str:
         """What leads back to this participant."""
-        return participant_code(self.participant, self.design.seed)
+        return participant_code(self.participant, self.design.study_id)
 
     @property
     def has_begun(self) -> bool:
@@ -99,15 +105,29 @@ class StudyRun:
         before = sum(len(item) for item in self.items[:index])
         rate(self._path, self.participant, self._at(index, place), rating, before + place + 1)
 
-    def settle(self, index: int) -> None:
+    def settle(self, index: int, ratings: Sequence[int]) -> None:
         """Be done with an item.
+
+        Parameters
+        ----------
+        index : int
+            Which one.
+        ratings : sequence of int
+            What the participant sees of it when going on, from left to right.
 
         Raises
         ------
+        RatingChangedError
+            If something else is stored.
         DataError
             If a rating is missing, or it cannot be stored.
+        WorkbenchError
+            If there is not one rating for each stimulus.
         """
-        settle(self._path, self.participant, self.items[index])
+        item = self.items[index]
+        if len(ratings) != len(item):
+            raise WorkbenchError(f"ratings: got {len(ratings)}, want {len(item)}")
+        settle(self._path, self.participant, dict(zip(item, ratings, strict=True)))
 
     def _at(self, index: int, place: int) -> Stimulus:
         if not 0 <= place < len(self.items[index]):

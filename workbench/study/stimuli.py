@@ -122,7 +122,7 @@ class Clip:
             "clip": self.clip,
             "first_frame": self.first_frame,
             "frames": len(self.motion),
-            "seconds": round(len(self.motion) * self.motion.frame_time, 3),
+            "seconds": _seconds(self.motion),
             "fingerprint": clip_fingerprint(self.motion),
             "error": 0.0,
         }
@@ -237,7 +237,8 @@ def stimulus_motion(stimulus: Stimulus) -> Motion:
     made = stimulus.parameters
     where = f"stimulus {' / '.join(stimulus.key)}"
     try:
-        motion = _part(made["clip"], made["first_frame"], made["frames"], made["fingerprint"])
+        wanted = made["clip"], made["first_frame"], made["frames"]
+        motion = _part(*wanted, made["fingerprint"], made["seconds"])
         if "keyframes" not in made:
             return motion
         if made["interpolator"] != "slerp":
@@ -250,21 +251,21 @@ def stimulus_motion(stimulus: Stimulus) -> Motion:
     return replace(motion, rotations=rotations)
 
 
-def forget_clips() -> None:
-    """Read clips anew from now on, files that were edited among them."""
-    _part.cache_clear()
-
-
 @lru_cache(maxsize=4)
-def _part(clip: str, first: int, frames: int, expected: str) -> Motion:
+def _part(clip: str, first: int, frames: int, expected: str, seconds: float) -> Motion:
     motion = load(clip)
     if not isinstance(motion, Motion):
         raise DataError(f"{clip}: got a table, want a motion")
     # What is too short has another fingerprint as well.
     part = motion[first : first + frames]
-    if clip_fingerprint(part) != expected:
+    # The fingerprint does not tell how fast it plays.
+    if clip_fingerprint(part) != expected or _seconds(part) != seconds:
         raise DataError(f"{clip}: is not the motion with which the study was prepared")
     return part
+
+
+def _seconds(motion: Motion) -> float:
+    return round(len(motion) * motion.frame_time, 3)
 
 
 def _saliency_count(space: PoseSpace, methods: Sequence[Method], selectors: Registry) -> int:

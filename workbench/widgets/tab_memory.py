@@ -11,7 +11,8 @@ from workbench.widgets.module import es_module
 class TabMemory(anywidget.AnyWidget):
     """Keep a word in the tab, so that a reloaded page, with another kernel, can go on.
 
-    The browser forgets it with the tab, and never sends it elsewhere.
+    The browser forgets it with the tab, and never sends it elsewhere. Whoever duplicates a tab
+    duplicates its memory, so a page should tell what it has recalled.
 
     Attributes
     ----------

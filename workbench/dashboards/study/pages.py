@@ -14,6 +14,11 @@ WATCH_FIRST = "Watch the figures to the end once. Then you can rate them."
 EXERCISE = " This one is an exercise: nothing of it is stored."
 FETCHING = '<p role="status">The figures are being fetched …</p>'
 RATE_ALL = "Please rate all figures first."
+CHANGED = (
+    "The ratings of these figures were changed in another window. These are the stored ones: "
+    "please look whether they are right, then go on."
+)
+CLOSED = "This study cannot be opened. Please call whoever leads the study."
 FAILED = "That did not work. Nothing that was stored is lost. Please call whoever leads the study."
 
 _PAGE = (
@@ -25,6 +30,7 @@ def welcome_text(design: StudyDesign) -> str:
     """Tell what will happen, how long it takes and what is stored."""
     n_items = len(design.items)
     minutes = max(1, round(design.minutes))
+    exercise = "First there is an exercise that does not count. " if design.practice else ""
     return _page(
         design.title,
         f"You will see {n_items} {'movement' if n_items == 1 else 'movements'}, each of them as "
@@ -33,8 +39,8 @@ def welcome_text(design: StudyDesign) -> str:
         f"Watch them to the end at least once, as often as you like. Then give each figure a "
         f"rating from {LOWEST_RATING} (lowest quality) to {HIGHEST_RATING} (highest). Two figures "
         "may get the same rating. There is no right answer: what you see counts.",
-        f"It takes about {minutes} {'minute' if minutes == 1 else 'minutes'}. First there is an "
-        "exercise that does not count. You can stop whenever you want.",
+        f"It takes about {minutes} {'minute' if minutes == 1 else 'minutes'}. {exercise}"
+        "You can stop whenever you want.",
         "Only your ratings are stored, on this machine, under a number. Nobody asks for your name.",
     )
 
@@ -44,6 +50,11 @@ def onward_text(index: int, n_items: int) -> str:
     if index < 0:
         return "Start"
     return "Finish" if index + 1 == n_items else "Next movement"
+
+
+def recalled_text(code: str) -> str:
+    """Say as whom a page goes on that has remembered somebody."""
+    return f'<span role="status">You go on as {escape(code)}.</span>'
 
 
 def thanks_text(code: str) -> str:

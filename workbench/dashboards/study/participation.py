@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from pathlib import Path
-from string import ascii_uppercase
 from typing import Any
 
 import ipywidgets as widgets
@@ -14,22 +12,27 @@ import ipywidgets as widgets
 from workbench.dashboards.shared.home import Home, running_loop
 from workbench.dashboards.shared.layout import FITTING, alert, control_row
 from workbench.dashboards.study.files import known_studies, study_of_address, study_path
+from workbench.dashboards.study.item_motions import ItemMotions
 from workbench.dashboards.study.item_view import ItemView
 from workbench.dashboards.study.pages import (
+    CHANGED,
+    CLOSED,
     EXERCISE,
     FAILED,
     RATE_ALL,
     WATCH_FIRST,
     onward_text,
     page_button,
+    recalled_text,
     thanks_text,
     welcome_text,
 )
+from workbench.dashboards.study.remembered import MEMORY_NAME, Remembered
 from workbench.errors import DataError, WorkbenchError
 from workbench.study.design import load_design
+from workbench.study.participation import RatingChangedError
 from workbench.study.run import StudyRun
-from workbench.study.stimuli import stimulus_motion
-from workbench.widgets.player import MotionPlayer, motion_traits
+from workbench.widgets.player import MotionPlayer
 from workbench.widgets.tab_memory import TabMemory
 
 #: Seconds between the start of an item and work on the next one.
@@ -47,7 +50,8 @@ def take_part_in_study(study: str | Path = "") -> StudyParticipation:
     ----------
     study : str or path-like
         Name or path of a study that was prepared. By default the one that the page's address
-        asks for (``take_part.ipynb?study=NAME``), or the one that was prepared or used last.
+        asks for (``take_part.ipynb?study=NAME``), else the one that the tab was in before it was
+        reloaded, else the one that was prepared or used last.
 
     Returns
     -------
@@ -61,7 +65,8 @@ class StudyParticipation:
     """A page that leads a participant through a study.
 
     Each rating is on the disk before the page says that it is stored. A page that was reloaded,
-    or whose kernel ended, goes on with the item that was on the screen.
+    or whose kernel ended, goes on with the item that was on the screen, of the same study even if
+    another one was prepared meanwhile.
 
     Parameters
     ----------
@@ -77,7 +82,7 @@ class StudyParticipation:
     form : RatingForm
         Where ratings are given.
     memory : TabMemory
-        What the tab remembers.
+        What the tab remembers, see :class:`Remembered`.
     failure : str
         What failed last, with the details that participants are not told.
     """
@@ -86,13 +91,16 @@ class StudyParticipation:
         self.run: StudyRun | None = None
         self.index: int | None = None
         self.failure = ""
-        self.memory = TabMemory()
-        self._path = Path()
-        self._fetched: dict[int, dict[str, Any]] = {}
+        self.memory = TabMemory(name=MEMORY_NAME)
+        self._asked = str(study) or study_of_address()
+        self._path: Path | None = None
+        self._enrolled: StudyRun | None = None
+        self._motions: ItemMotions | None = None
         self._here = Home().here
         self._view = ItemView(self._here)
         self.form = self._view.form
         self._message = widgets.HTML()
+        self._recalled = control_row([])
         self._body = widgets.VBox([])
         self.begin = page_button("Begin", "Take part as a new participant", "primary")
         self.code = widgets.Text(
@@ -103,10 +111,11 @@ class StudyParticipation:
         )
         self.go_on = page_button("Go on", "Go on where you were")
         self.next_person = page_button("Next participant", "Begin again with somebody else")
-        self.root = widgets.VBox([self.memory, self._message, self._body])
+        self.somebody_else = page_button("I am somebody else", "Leave this place to them")
+        self.root = widgets.VBox([self.memory, self._message, self._recalled, self._body])
         self.root.add_class("wb-study")
         self._connect()
-        self._open(study)
+        self._open()
 
     def _repr_mimebundle_(self, **kwargs: Any) -> Any:
         return self.root._repr_mimebundle_(**kwargs)
@@ -128,24 +137,27 @@ class StudyParticipation:
 
     # Pages.
 
-    def _open(self, study: str | Path) -> None:
+    def _open(self) -> None:
         known = known_studies()
-        name = str(study) or study_of_address() or (known[0] if known else "")
+        name = self._asked or (known[0] if known else "")
         if not name:
             self._tell("No study was prepared yet. Prepare one first, then open this page again.")
             return
         try:
-            self._path = study_path(name)
-            load_design(self._path)
+            path = study_path(name)
+            load_design(path)
         except WorkbenchError as error:
-            self._tell(str(error))
+            # Its words tell a path of this machine.
+            self.failure = str(error)
+            self._tell(CLOSED)
             return
+        self._path = path
         self._welcome()
-        # A tab remembers participants of this file only, and shows its path to nobody.
-        self.memory.name = hashlib.sha256(str(self._path).encode()).hexdigest()[:16]
 
     def _welcome(self) -> None:
-        self.run, self.index = None, None
+        assert self._path is not None  # there is a study to welcome to
+        self.run, self.index, self._enrolled = None, None, None
+        self._recalled.children = []
         text = widgets.HTML(welcome_text(load_design(self._path)))
         again = widgets.HTML("<span>Were you here before?</span>")
         self._body.children = [
@@ -162,14 +174,18 @@ class StudyParticipation:
             control_row([self.next_person]),
         ]
 
-    def _enter(self, run: StudyRun) -> None:
-        self.run, self._fetched = run, {}
-        self.memory.word = run.code
+    def _enter(self, run: StudyRun, *, practised: bool = False) -> None:
+        self.run, self._motions = run, ItemMotions(run)
+        self._remember(practised=practised)
         self._tell("")
-        if run.design.practice and not run.has_begun:
+        if run.design.practice and not practised and not run.has_begun:
             self._show(-1, [0] * len(run.design.practice))
             return
         self._continue()
+
+    def _remember(self, *, practised: bool) -> None:
+        assert self.run is not None  # only participants are remembered
+        self.memory.word = Remembered(self.run.design.study_id, self.run.code, practised).word
 
     def _continue(self) -> None:
         assert self.run is not None  # only participants get here
@@ -181,14 +197,15 @@ class StudyParticipation:
 
     def _show(self, index: int, ratings: list[int]) -> None:
         assert self.run is not None  # only participants get here
+        assert self._motions is not None
         n_items = len(self.run.items)
         name = "Exercise" if index < 0 else f"Movement {index + 1} of {n_items}"
         before = self._body.children
-        if index not in self._fetched:
+        if index not in self._motions:
             self._view.show_fetching()
             self._body.children = [self._view.root]
         try:
-            motions = self._fetch(index)
+            motions = self._motions.fetch(index)
         except Exception:
             self._view.show_player()
             self._body.children = before
@@ -205,24 +222,14 @@ class StudyParticipation:
         self._body.children = [self._view.root]
         loop = running_loop()
         if loop is not None and index + 1 < n_items:
-            loop.call_later(_PAUSE, self._look_ahead, self.run, index + 1)
+            loop.call_later(_PAUSE, self._look_ahead, self._motions, index + 1)
 
-    def _fetch(self, index: int) -> dict[str, Any]:
-        """Make the motions of an item, unless that was done ahead; only one item is kept."""
-        assert self.run is not None  # only participants get here
-        if index not in self._fetched:
-            stimuli = self.run.items[index] if index >= 0 else self.run.design.practice
-            letters = ascii_uppercase[: len(stimuli)]
-            motions = (stimulus_motion(stimulus) for stimulus in stimuli)
-            self._fetched = {index: motion_traits(dict(zip(letters, motions, strict=True)))}
-        return self._fetched[index]
-
-    def _look_ahead(self, run: StudyRun, index: int) -> None:
+    def _look_ahead(self, motions: ItemMotions, index: int) -> None:
         """Make the motions of the next item while the one before is watched."""
         # What fails is told when the item is to be shown.
         with suppress(Exception):
-            if run is self.run and self.index == index - 1:
-                self._fetch(index)
+            if motions is self._motions and self.index == index - 1:
+                motions.fetch(index)
 
     def _tell(self, words: str) -> None:
         self._message.value = alert(words) if words else ""
@@ -233,16 +240,20 @@ class StudyParticipation:
         here = self._here
         self.begin.on_click(here(lambda _: self._try(self._on_begin)))
         self.go_on.on_click(here(lambda _: self._try(self._on_go_on)))
-        self.next_person.on_click(here(lambda _: self._try(self._on_next_person)))
+        for button in (self.next_person, self.somebody_else):
+            button.on_click(here(lambda _: self._try(self._on_next_person)))
         self.memory.observe(here(lambda _: self._try(self._on_recalled)), "recalled")
         self.form.observe(here(self._on_chosen), "chosen")
         self.form.observe(here(lambda _: self._try(self._on_finished)), "finished")
 
     def _on_begin(self) -> None:
+        assert self._path is not None  # the button belongs to a study
         # Whoever presses again because something failed is the same person.
-        self._enter(self.run or StudyRun.begin(self._path))
+        self._enrolled = self._enrolled or StudyRun.begin(self._path)
+        self._enter(self._enrolled)
 
     def _on_go_on(self) -> None:
+        assert self._path is not None  # the button belongs to a study
         try:
             run = StudyRun.resume(self._path, self.code.value)
         except DataError:
@@ -252,13 +263,19 @@ class StudyParticipation:
         self._enter(run)
 
     def _on_recalled(self) -> None:
-        if not self.memory.recalled or self.run is not None:
+        if self.run is not None:
             return
-        try:
-            run = StudyRun.resume(self._path, self.memory.recalled)
-        except WorkbenchError:
-            return  # of a study that was in the same place before
-        self._enter(run)
+        remembered = Remembered.of(self.memory.recalled)
+        path = remembered.path(self._path, self._asked)
+        run = None if path is None else remembered.run(path)
+        if run is None:
+            return
+        self._enter(run, practised=remembered.practised)
+        self._path = path  # only now: what failed leaves the welcome of the other study
+        if self.index is not None:
+            # The tab may be a copy of somebody else's.
+            words = widgets.HTML(recalled_text(run.code))
+            self._recalled.children = [words, self.somebody_else]
 
     def _on_next_person(self) -> None:
         self.memory.word = ""
@@ -293,8 +310,19 @@ class StudyParticipation:
         if not all(self.form.stored):
             raise _Asked(RATE_ALL)
         if self.index >= 0:
-            self.run.settle(self.index)
+            self._settle(self.run, self.index)
+        else:
+            self._remember(practised=True)
+        self._recalled.children = []
         self._continue()
+
+    def _settle(self, run: StudyRun, index: int) -> None:
+        """Settle on what the page shows; if something else is stored, show that first."""
+        try:
+            run.settle(index, self.form.stored)
+        except RatingChangedError:
+            self.form.stored = self.form.chosen = run.ratings(index)
+            raise _Asked(CHANGED) from None
 
     def _try(self, act: Callable[[], None]) -> None:
         """Do what a person asks for; what fails is told, and nothing is lost by it."""

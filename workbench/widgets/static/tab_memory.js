@@ -1,4 +1,5 @@
-// Remember a word for as long as the tab is open. Another tab is another person's.
+// Remember a word for as long as the tab is open. A tab that was duplicated begins with a copy of
+// what the first one remembered, and goes its own way from there.
 
 export default {
   render({ model }) {
