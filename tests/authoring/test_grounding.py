@@ -171,6 +171,24 @@ def test_captured_feet(name):
     assert steps.max() < own.max() + 0.05 * leg
 
 
+@pytest.mark.parametrize("lean", [90.0, -90.0, 180.0], ids=["on its back", "on its face", "down"])
+def test_y_must_be_up(lean):
+    """Else the path of the root would be destroyed: the words say what is wanted."""
+    stride = 30.0 * np.sin(np.arange(40) * np.pi / 10)
+    upright = _walker(np.stack([stride, -stride], axis=1))
+    turn = axis_rotation("X", lean)
+    rotations = upright.rotations.copy()
+    rotations[:, 0] = turn @ rotations[:, 0]
+    fallen = replace(
+        upright, rotations=rotations, root_translation=upright.root_translation @ turn.T
+    )
+    with pytest.raises(WorkbenchError, match="want y up"):
+        keep_feet(fallen)
+    with pytest.raises(WorkbenchError, match="want y up"):
+        ground_level(fallen)
+    assert ground_level(upright) < 1.0
+
+
 def test_the_ball_of_the_foot_is_taken():
     """The joint below the foot's own touches the ground, not the ankle."""
     motion = load_space("cmu/01_01-jump").motion

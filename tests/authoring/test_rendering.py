@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from workbench.authoring import edits, foot_slide, foot_speeds, play
+from workbench.authoring import edits, foot_slide, foot_speeds, play, scene_from_clip
 from workbench.authoring.animation import poses_at
 from workbench.authoring.grounding import find_support, ground_level
 from workbench.authoring.placing import spatial_keyframes
+from workbench.authoring.rendering import _support
 from workbench.errors import WorkbenchError
 from workbench.mocap.bvh import read_bvh
 from workbench.mocap.bvh_writer import write_bvh
+from workbench.mocap.contacts import find_feet
+from workbench.mocap.rotations import axis_rotation
+from workbench.spaces import PoseSpace
 
 
 @pytest.fixture(scope="module")
@@ -40,6 +45,33 @@ def test_a_scene_plays_its_trajectory(scene, jump):
     )
     expected = poses_at(scene.trajectory.points, spatial_keyframes(scene), jump.motion)
     assert np.array_equal(motion.rotations, expected.rotations)
+
+
+def test_the_feet_are_those_of_the_clip(jump):
+    """Where names do not tell, what is lowest in a handstand is not taken for the feet."""
+    skeleton = jump.motion.skeleton
+    names = tuple(f"joint {rank}" for rank in range(skeleton.n_joints))
+    clip = replace(jump.motion, skeleton=replace(skeleton, names=names))
+    rotations = clip.rotations.copy()
+    rotations[:, 0] = axis_rotation("X", 180.0) @ rotations[:, 0]
+    handstand = replace(clip, rotations=rotations)
+    assert find_feet(handstand) != find_feet(clip)
+    _, feet = _support(handstand, PoseSpace(clip))
+    assert feet == tuple(names[joint] for joint in find_feet(clip))
+
+
+def test_a_clip_whose_y_is_not_up_is_played_as_it_is(scene, jump):
+    """Keeping its feet is refused, playing it is not."""
+    turn = axis_rotation("X", 90.0)
+    rotations = jump.motion.rotations.copy()
+    rotations[:, 0] = turn @ rotations[:, 0]
+    roots = jump.motion.root_translation @ turn.T
+    fallen = PoseSpace(replace(jump.motion, rotations=rotations, root_translation=roots))
+    lying = scene_from_clip(fallen, scene.clip, selector="uniform", count=6, projector="pca")
+    assert len(play(lying, fallen)) == len(jump)
+    for refused in (play, foot_slide):
+        with pytest.raises(WorkbenchError, match="want y up"):
+            refused(edits.set_keep_feet(lying, True), fallen)
 
 
 def test_a_slower_trajectory_gives_more_frames(scene, jump):

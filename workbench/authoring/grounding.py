@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from workbench.authoring.upright import check_upright
 from workbench.errors import WorkbenchError
 from workbench.mocap.contacts import find_feet
 from workbench.mocap.kinematics import end_site_positions, joint_positions
@@ -97,9 +98,11 @@ def ground_level(motion: Motion, feet: Iterable[str] | None = None) -> float:
     Raises
     ------
     WorkbenchError
-        If no feet are found.
+        If no feet are found, or the root is not above them.
     """
-    return float(np.percentile(foot_points(motion, feet)[:, :, _UP].min(axis=1), _LOWEST))
+    heights = foot_points(motion, feet)[:, :, _UP]
+    check_upright(motion, find_feet(motion, feet), heights)
+    return float(np.percentile(heights.min(axis=1), _LOWEST))
 
 
 def find_support(
@@ -126,7 +129,8 @@ def find_support(
     Raises
     ------
     WorkbenchError
-        If no feet are found or the ground is not finite.
+        If no feet are found or the ground is not finite; without a ground also if the root is
+        not above the feet.
     """
     heights = foot_points(motion, feet)[:, :, _UP]
     level = ground_level(motion, feet) if ground is None else float(ground)

@@ -17,6 +17,7 @@ from workbench.authoring.grounding import (
 )
 from workbench.authoring.placing import check_clip, spatial_keyframes
 from workbench.authoring.scene import Scene
+from workbench.mocap.contacts import find_feet
 from workbench.mocap.motion import Motion
 from workbench.spaces import PoseSpace
 
@@ -56,7 +57,7 @@ def play(scene: Scene, space: PoseSpace) -> Motion:
     Raises
     ------
     WorkbenchError
-        If the clip is another one.
+        If the clip is another one, or the feet are to be kept and none are found below its root.
 
     Examples
     --------
@@ -70,7 +71,7 @@ def play(scene: Scene, space: PoseSpace) -> Motion:
     """
     check_clip(scene, space)
     motion = _as_rebuilt(scene, space)
-    return keep_feet(motion, _support(motion, space)) if scene.keep_feet else motion
+    return keep_feet(motion, *_support(motion, space)) if scene.keep_feet else motion
 
 
 def foot_slide(scene: Scene, space: PoseSpace) -> FootSlide:
@@ -90,11 +91,12 @@ def foot_slide(scene: Scene, space: PoseSpace) -> FootSlide:
     Raises
     ------
     WorkbenchError
-        If the clip is another one, or no feet are found in it.
+        If the clip is another one, or no feet are found below its root.
     """
     motion = _as_rebuilt(scene, space)
-    support = _support(motion, space)
-    return FootSlide(foot_speeds(motion, support), foot_speeds(keep_feet(motion, support), support))
+    support, feet = _support(motion, space)
+    kept = keep_feet(motion, support, feet)
+    return FootSlide(foot_speeds(motion, support, feet), foot_speeds(kept, support, feet))
 
 
 def _as_rebuilt(scene: Scene, space: PoseSpace) -> Motion:
@@ -104,6 +106,11 @@ def _as_rebuilt(scene: Scene, space: PoseSpace) -> Motion:
     return replace(motion, name=f"{scene.clip} (authored)")
 
 
-def _support(motion: Motion, space: PoseSpace) -> Support:
-    """Find the supporting feet above the ground of the clip, of which the motion is made."""
-    return find_support(motion, ground_level(space.motion))
+def _support(motion: Motion, space: PoseSpace) -> tuple[Support, tuple[str, ...]]:
+    """Find the supporting feet, and their names: feet and ground are those of the clip.
+
+    Other ends of the body may be the lowest ones of the motion that is made of it.
+    """
+    clip = space.motion
+    feet = tuple(clip.skeleton.names[joint] for joint in find_feet(clip))
+    return find_support(motion, ground_level(clip, feet), feet), feet
