@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import asyncio
 import dataclasses
+import gc
 import json
+import weakref
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -16,6 +18,8 @@ from sklearn.base import BaseEstimator
 from workbench.authoring import edits, foot_slide, influence, play, scene_on_circle
 from workbench.authoring.scene import Scene
 from workbench.dashboards import MotionAuthor, author_motion
+from workbench.dashboards.authoring.edits import edited
+from workbench.dashboards.authoring.state import AuthorState
 from workbench.datasets import load, load_space
 from workbench.errors import DataError, WorkbenchError
 from workbench.mocap.bvh_writer import write_bvh
@@ -204,6 +208,100 @@ def test_a_new_pose_is_placed_before_frames_are_optimized(
     assert author.refined is not None
 
 
+@pytest.mark.parametrize("meanwhile", ["deform", "undo"])
+def test_a_new_pose_that_waits_is_given_up_for_what_comes_next(
+    author: MotionAuthor, first: Scene, meanwhile: str
+) -> None:
+    """The dashboard says so, and the pose does not come back to take what can be redone."""
+
+    async def main() -> None:
+        do(author, **EDITS["retime"](first))
+        do(author, **EDITS["turn, optimizer's place"](first))
+        do(author, **EDITS.get(meanwhile, lambda _: {"kind": meanwhile})(first))
+        assert "the new pose was given up" in author.message
+        while author.view.pad.undo_label:
+            author.undo()
+        assert author.scene is first
+        await asyncio.wait_for(author.finished(), 60)
+
+    asyncio.run(main())
+    assert author.scene is first
+    assert author.view.pad.redo_label == "retime"
+
+
+def test_no_pose_waits_for_its_place_while_markers_are_replaced(author: MotionAuthor) -> None:
+    """It would take the place of what a person asked for before."""
+
+    async def main() -> None:
+        author.place(projector="circle")
+        do(author, **EDITS["turn, optimizer's place"](author.scene))
+        assert "other markers are on the way" in author.message
+        await asyncio.wait_for(author.finished(), 60)
+
+    asyncio.run(main())
+    assert author.view.pad.undo_label == "place 6 markers by circle"
+
+
+@pytest.mark.parametrize("name", ["move", "add a frame", "remove", "turn", "draw", "retime"])
+def test_an_edit_of_what_was_seen_before_the_optimizers_result_is_done(
+    author: MotionAuthor, first: Scene, name: str
+) -> None:
+    """Markers, drawings and times mean the same in the scene that is there by then."""
+    author.controls.refine.value = True
+    seen = author.view.pad.revision + 1
+    do(author, **EDITS["move"](first))
+    assert author.view.pad.revision == seen + 1
+    author.controls.refine.value = False
+    now = author.scene
+    edit = EDITS[name](first)
+    do(author, **edit, revision=seen)
+    assert author.message == ""
+    assert author.scene.equals(edited(now, author.space, edit).scene)
+
+
+def test_a_curve_is_deformed_as_it_was_seen_before_the_optimizers_result(
+    author: MotionAuthor, first: Scene
+) -> None:
+    """The seen curve is dragged, frames are at their better places, and the script agrees."""
+    author.controls.refine.value = True
+    seen = author.view.pad.revision + 1
+    do(author, **EDITS["move"](first))
+    better = author.scene
+    do(author, **EDITS["deform"](first), revision=seen)
+    by_rbfp = edits.move_marker(first, author.space, 2, [0.9, 0.2])
+    expected = edits.deform(by_rbfp, 90, [0.1, 0.9], 0.4).trajectory
+    np.testing.assert_array_equal(author.scene.trajectory.points, expected.points)
+    np.testing.assert_array_equal(author.scene.embedding, better.embedding)
+    assert run(author.code)["scene"].equals(author.scene)
+    author.undo()
+    assert author.scene is better
+
+
+@pytest.mark.parametrize("name", [*EDITS])
+def test_an_edit_of_a_scene_that_is_gone_is_refused(
+    author: MotionAuthor, first: Scene, name: str
+) -> None:
+    """What the person saw is another curve with other markers: nothing is done."""
+    seen = author.view.pad.revision
+    author.scene = edits.remove_marker(first, 5)
+    before = author.scene
+    do(author, **EDITS[name](first), revision=seen)
+    assert author.message == "the scene has changed meanwhile: please try again"
+    assert author.scene is before
+    do(author, **EDITS["deform"](first), revision=author.view.pad.revision)
+    assert author.message == ""
+
+
+def test_revisions_count_markers_and_curves_only(author: MotionAuthor) -> None:
+    """Keeping the feet changes nothing that a gesture is made on."""
+    seen = author.view.pad.revision
+    author.keep_feet()
+    assert author.view.pad.revision == seen
+    do(author, "remove", marker=5, revision=seen)
+    assert author.message == ""
+    assert author.view.pad.revision == seen + 1
+
+
 def test_cancelling_leaves_the_frames_where_rbfp_put_them(author: MotionAuthor) -> None:
     """The message says so, and computing again brings the better places."""
 
@@ -271,6 +369,24 @@ def test_feet_are_kept_and_their_speed_is_shown(author: MotionAuthor) -> None:
     author.undo()
     assert not author.controls.keep_feet.value
     assert len(author.view.pad.roots) == 0
+
+
+def test_a_page_has_roots_and_feet_of_the_motion_that_is_saved(
+    author: MotionAuthor, first: Scene, tmp_path: Path
+) -> None:
+    """Even if it is saved before they were computed beside the kernel."""
+    pad, feet = author.view.pad, author.view.feet
+
+    async def main() -> None:
+        author.keep_feet()
+        do(author, **EDITS["draw"](first))
+        assert len(pad.roots) == 0
+        author.export_html(tmp_path / "drawn.html")
+        np.testing.assert_array_equal(pad.roots.reshape(-1, 3), author.motion.root_translation)
+        assert feet.values.size == 2 * len(author.motion)
+        await asyncio.wait_for(author.finished(), 60)
+
+    asyncio.run(main())
 
 
 def test_a_body_without_feet_is_told_of_and_can_be_authored(author: MotionAuthor) -> None:
@@ -403,6 +519,8 @@ def test_a_session_goes_on_where_it_was_saved(
     give(author, "mine.json", path.read_bytes())
     assert author.scene.equals(saved)
     assert author.view.pad.undo_label == "open mine.json"
+    assert "# scene: the one of 'mine.json', a session that was uploaded" in author.code
+    assert "read_session" not in author.code
 
 
 def give(author: MotionAuthor, name: str, content: bytes) -> None:
@@ -470,6 +588,7 @@ def test_a_session_whose_clip_is_elsewhere_now_goes_on_with_the_clip_that_is_sho
     author.open_session(path)
     assert author.message == ""
     assert author.scene.equals(dataclasses.replace(saved, clip=str(new)))
+    assert run(author.code)["scene"].equals(author.scene)
 
 
 def test_bvh_reads_back_as_the_motion(author: MotionAuthor, first: Scene, tmp_path: Path) -> None:
@@ -514,6 +633,7 @@ def test_a_page_has_the_words_that_were_given(author: MotionAuthor, tmp_path: Pa
     assert "Look &amp; move" in page
     assert "http:" not in page
     assert "https:" not in page
+    assert (author.view.title.value, author.view.text.value) == ("", "")
 
 
 def test_a_scene_can_be_set_from_python(author: MotionAuthor, first: Scene) -> None:
@@ -526,6 +646,19 @@ def test_a_scene_can_be_set_from_python(author: MotionAuthor, first: Scene) -> N
     with pytest.raises(WorkbenchError, match="scene: got one of clip"):
         author.scene = foreign
     assert author.scene is before
+
+
+def test_a_scene_of_the_history_can_be_set_again(author: MotionAuthor, first: Scene) -> None:
+    """It is another step; the one that it had keeps its script."""
+    script = author.code
+    do(author, **EDITS["deform"](first))
+    author.scene = first
+    assert author.scene.equals(first)
+    assert "# scene: the one that was set from Python" in author.code
+    for _ in range(2):
+        author.undo()
+    assert author.scene is first
+    assert author.code == script
 
 
 def author_scene_of_another_clip() -> Scene:
@@ -561,6 +694,39 @@ def test_other_endings_are_refused(
     """A file's name tells what it is."""
     with pytest.raises(WorkbenchError, match=rf"ends in \{ending}"):
         getattr(author, save)(tmp_path / "a.txt")
+
+
+@pytest.mark.parametrize(
+    ("save", "ending"),
+    [("save", ".json"), ("export_bvh", ".bvh"), ("export_html", ".html")],
+    ids=["session", "BVH", "page"],
+)
+def test_a_file_that_cannot_be_written_is_told_in_words(
+    author: MotionAuthor, tmp_path: Path, save: str, ending: str
+) -> None:
+    """The message names the file."""
+    (tmp_path / "file").write_text("no folder")
+    target = tmp_path / "file" / f"a{ending}"
+    with pytest.raises(DataError, match=rf"a\{ending}: cannot be written \("):
+        getattr(author, save)(target)
+
+
+def test_an_edit_costs_the_same_however_long_the_session_is(
+    author: MotionAuthor, first: Scene, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The script is written where it is looked at only; the motion that is shown is kept only."""
+    written: list[str] = []
+    code = AuthorState.code.fget
+    monkeypatch.setattr(AuthorState, "code", property(lambda s: written.append("") or code(s)))
+    played = weakref.ref(author._live.state.played)
+    do(author, **EDITS["deform"](first))
+    gc.collect()
+    assert played() is None
+    assert written == []
+    author.view.code.button.value = True
+    assert written == [""]
+    author.view.code.button.value = False
+    author.view.code.cell.code = ""
 
 
 def test_the_script_makes_the_same_scene(author: MotionAuthor, first: Scene) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -9,13 +10,12 @@ from workbench.authoring import Scene, play, read_session
 from workbench.dashboards.authoring.controls import AuthorControls
 from workbench.dashboards.authoring.edits import Edited
 from workbench.dashboards.authoring.events import AuthorEvents
-from workbench.dashboards.authoring.files import content
-from workbench.dashboards.authoring.jobs import Methods, Refined
+from workbench.dashboards.authoring.files import content, save
+from workbench.dashboards.authoring.jobs import Errors, Methods
 from workbench.dashboards.authoring.live import LiveAuthor
 from workbench.dashboards.authoring.view import AuthorView
 from workbench.dashboards.shared.sources import available, reread, source_of
 from workbench.errors import WorkbenchError
-from workbench.files import write_atomically
 from workbench.mocap.motion import Motion
 from workbench.spaces import PoseSpace
 
@@ -123,8 +123,7 @@ class MotionAuthor:
         Raises
         ------
         WorkbenchError
-            If there is none as long as no clip is loaded, or another is set that does not fit
-            the clip.
+            If no clip is loaded, or a scene is set that does not fit it.
         """
         return self._live.scene
 
@@ -134,7 +133,8 @@ class MotionAuthor:
         if scene.clip != name:
             raise WorkbenchError(f"scene: got one of clip {scene.clip!r}, want one of {name!r}")
         play(scene, self.space)  # refuses what does not fit the clip
-        self._live.do(Edited(scene, "set from Python", ""))
+        # A copy: a scene of the history has its own step there.
+        self._live.do(Edited(replace(scene), "set from Python", ""))
 
     @property
     def space(self) -> PoseSpace:
@@ -164,7 +164,7 @@ class MotionAuthor:
         return self._live.state.code
 
     @property
-    def refined(self) -> Refined | None:
+    def refined(self) -> Errors | None:
         """Error before and after the optimizer; None if it did not run since the last edit."""
         return self._live.state.refined
 
@@ -282,19 +282,13 @@ class MotionAuthor:
         title, text : str
             Its heading, and words below it; by default those of the dashboard's fields.
         """
-        for field, words in ((self.view.title, title), (self.view.text, text)):
-            field.value = words or field.value
-        return self._save(path, "html", ".html")
+        return self._save(path, "html", ".html", title=title, text=text)
 
     def close(self) -> None:
         """End the process that computes, and take the dashboard out of the page."""
         self._live.stop()
         self.view.root.close()
 
-    def _save(self, path: str | Path, want: str, ending: str) -> Path:
-        target = Path(path)
-        if target.suffix.lower() != ending:
-            raise WorkbenchError(f"path: got {str(path)!r}, want a name that ends in {ending}")
+    def _save(self, path: str | Path, want: str, ending: str, **words: str) -> Path:
         live = self._live
-        write_atomically(target, content(want, live.clip, live.scene, live.view))
-        return target
+        return save(path, ending, lambda: content(want, live.clip, live.scene, live.view, **words))

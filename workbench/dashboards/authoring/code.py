@@ -11,6 +11,7 @@ from workbench.dashboards.shared.sources import Source
 
 #: What a script may need, by where it is found.
 _HOMES = {
+    "replace": "dataclasses",
     "load_space": "workbench",
     "best_place": "workbench.authoring",
     "edits": "workbench.authoring",

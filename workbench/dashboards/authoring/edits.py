@@ -34,6 +34,8 @@ class Edited:
         Whether markers have changed, so that the frames between them can be placed better.
     selected : int or None
         The marker to select, -1 for none; None if that stays as it is.
+    before : Scene or None
+        What the script's step begins with; None for the scene that is shown.
     """
 
     scene: Scene
@@ -41,6 +43,7 @@ class Edited:
     code: str
     moved: bool = False
     selected: int | None = None
+    before: Scene | None = None
 
 
 def edited(scene: Scene, space: PoseSpace, edit: Mapping[str, Any]) -> Edited:

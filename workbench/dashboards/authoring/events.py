@@ -43,7 +43,9 @@ class AuthorEvents:
         elif message.get("given") and buffers:
             name, made = str(message.get("name")), bytes(buffers[0])
             live = self._live
-            live.attempt(lambda: live.open_session(session_from_bytes(made, name), name))
+            live.attempt(
+                lambda: live.open_session(session_from_bytes(made, name), name, uploaded=True)
+            )
 
     def _give(self, want: str) -> None:
         live, files = self._live, self._live.view.files

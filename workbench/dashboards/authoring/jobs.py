@@ -151,6 +151,20 @@ class Played:
     note: str
 
 
+@dataclass(frozen=True)
+class Errors:
+    """What an optimizer was good for.
+
+    Attributes
+    ----------
+    before, after : float
+        Error per frame per joint, in radians.
+    """
+
+    before: float
+    after: float
+
+
 @dataclass(frozen=True, eq=False)
 class Refined:
     """Better places of a clip's frames.
@@ -159,10 +173,9 @@ class Refined:
     ----------
     embedding : ndarray of shape (n_frames, 2)
         The places.
-    before, after : float
-        Error per frame per joint, in radians.
+    errors : Errors
+        What it was good for.
     """
 
     embedding: NDArray[np.float64]
-    before: float
-    after: float
+    errors: Errors

@@ -3,26 +3,31 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from workbench.authoring import Scene, Session, edits, play
 from workbench.dashboards.authoring.controls import AuthorControls
-from workbench.dashboards.authoring.edits import BEST, Edited, edited
+from workbench.dashboards.authoring.edits import BEST, Edited
 from workbench.dashboards.authoring.jobs import Clip, Job, Methods, Placing, Posing
+from workbench.dashboards.authoring.openings import opening_of
+from workbench.dashboards.authoring.revisions import Revisions
 from workbench.dashboards.authoring.session import AuthorSession
 from workbench.dashboards.authoring.state import AuthorState, Opening, Step
 from workbench.dashboards.authoring.view import AuthorView
 from workbench.dashboards.shared.background import Background
-from workbench.dashboards.shared.sources import Source, loaded_here, reread, source_of
+from workbench.dashboards.shared.sources import Source, loaded_here, reread
 from workbench.dashboards.shared.worker import Worker
-from workbench.errors import DataError, WorkbenchError
+from workbench.errors import WorkbenchError
 
 #: Stands in a script for a scene that was set.
 FROM_PYTHON = "# scene: the one that was set from Python"
+
+_POSE_DROPPED = (
+    "the new pose was given up, because something else was done before its place was found: "
+    "turn the joint again"
+)
 
 
 class LiveAuthor:
@@ -56,6 +61,7 @@ class LiveAuthor:
         self.refusal = self.trouble = ""
         self._methods = methods
         self._answered = 0
+        self._revisions = Revisions()
         self._shown: tuple[Any, ...] = ()
         self._background = Background(AuthorSession)
         self.worker: Worker[Job] = Worker(
@@ -101,17 +107,17 @@ class LiveAuthor:
 
     def do(self, result: Edited) -> None:
         """Go on with what came of an edit."""
-        self.refusal = self.trouble = ""
+        self._go_on()
         # Of a scene that comes from Python nobody knows how it was made.
-        step = Step(result.code or FROM_PYTHON, self.state.scene if result.code else None)
+        before = result.before or self.state.scene
+        step = Step(result.code or FROM_PYTHON, before if result.code else None)
         self.state.do(result.label, result.scene, step, moved=result.moved)
         self.wake(result.selected)
 
     def step(self, back: bool) -> None:
         """Undo or redo."""
-        self.refusal = self.trouble = ""
+        self._go_on()
         if self.state.history is not None:
-            self.state.drop_failed()
             _ = self.state.history.undo() if back else self.state.history.redo()
         self.wake()
 
@@ -126,7 +132,7 @@ class LiveAuthor:
             if kind == "turn" and edit.get("place") == BEST:
                 self._want_pose(edit)
             else:
-                self.do(edited(self.scene, self.clip.space, edit))
+                self.do(self._revisions.edited(self.state, self.scene, edit))
         except Exception as error:  # the pad waits for an answer, whatever went wrong
             self.refusal = in_words(error)
             self.wake()
@@ -151,8 +157,7 @@ class LiveAuthor:
 
     def want_placing(self, source: Source) -> None:
         """Begin with key poses of a clip as the controls say."""
-        self.trouble = ""
-        self.state.drop_failed()
+        self._go_on()
         controls = self.controls
         self.state.wanted = Placing(
             source,
@@ -179,24 +184,17 @@ class LiveAuthor:
             self.trouble = str(error)
             self.wake()
 
-    def open_session(self, session: Session, path: str) -> None:
+    def open_session(self, session: Session, path: str, *, uploaded: bool = False) -> None:
         """Go on with a session of a file; refuse it if its clip is here and is another one."""
-        self.refusal = self.trouble = ""
-        self.state.drop_failed()
-        scene, shown = session.scene, self.state.clip
-        label = f"open {Path(path).name}"
-        step = Step(f"scene = read_session({path!r}).scene", None)
-        # A clip that is shown may be in memory only, or have had another path elsewhere.
-        if shown is not None and _is_of(session, shown):
-            scene = replace(scene, clip=shown.source.name)
-        same = shown is not None and shown.source.name == scene.clip
-        source = shown.source if shown is not None and same else source_of(scene.clip)
-        clip = self.state.clip_of(source)
-        if clip is None:
-            self.state.wanted = Opening(source, scene, session.check, label, step)
-        else:
+        opening = opening_of(session, path, self.state.clip, uploaded=uploaded)
+        clip = self.state.clip_of(opening.source)
+        if clip is not None:
             session.check(clip.space.motion)
-            self.state.do(label, scene, step, clip=clip, moved=False)
+        self._go_on()
+        if clip is None:
+            self.state.wanted = opening
+        else:
+            self.state.open(opening, clip)
         self.wake()
 
     def recompute(self) -> None:
@@ -216,13 +214,22 @@ class LiveAuthor:
         self._show_scene(selected)
         self.worker.wake()
 
+    def _go_on(self) -> None:
+        """Forget what could not be done: the person does something else."""
+        self.refusal = ""
+        self.trouble = _POSE_DROPPED if self.state.drop_pose() else ""
+        self.state.drop_failed()
+
     # Computing.
 
     def _want_pose(self, edit: dict[str, Any]) -> None:
+        self._revisions.seen(self.state, edit)
+        wanted = self.state.wanted
+        if isinstance(wanted, (Placing, Opening)) and not self.state.has_failed(wanted):
+            raise WorkbenchError("new pose: other markers are on the way: please wait for them")
         marker, joint, degrees = edit["marker"], edit["joint"], edit["angles"]
         edits.turn_joint(self.scene, marker, joint, degrees)  # refuses what cannot be done
-        self.refusal = self.trouble = ""
-        self.state.drop_failed()
+        self._go_on()
         angles = tuple(map(float, degrees))
         self.state.wanted = Posing(self.clip.source, self.scene, marker, joint, angles)
         self.wake()
@@ -248,6 +255,7 @@ class LiveAuthor:
             return
         scene, played = state.history.scene, state.played
         kept = played if scene.keep_feet else None
+        revision = self._revisions.show(scene)
         now = (scene, kept, self._answered, self.refusal)
         self._show_controls(scene)
         if now != self._shown or selected is not None:
@@ -257,10 +265,11 @@ class LiveAuthor:
                 state.history,
                 roots=None if kept is None else kept.roots,
                 answered=self._answered,
+                revision=revision,
                 selected=selected,
                 message=self.refusal,
             )
-            self.view.show_code(state.code)
+            self.view.show_code(lambda: state.code)
         self.view.show_feet(state.clip, scene, played)
 
     def _show_controls(self, scene: Scene) -> None:
@@ -279,14 +288,6 @@ class LiveAuthor:
         if state.clip is not None and (wanted is None or wanted.source in state.failures):
             with self.controls.silence():
                 self.controls.choose(state.clip.source)
-
-
-def _is_of(session: Session, clip: Clip) -> bool:
-    try:
-        session.check(clip.space.motion)
-    except DataError:
-        return False
-    return True
 
 
 def in_words(error: Exception) -> str:

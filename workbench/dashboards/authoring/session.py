@@ -21,6 +21,7 @@ from workbench.authoring.scene import Scene
 from workbench.dashboards.authoring.jobs import (
     CIRCLE,
     Clip,
+    Errors,
     Job,
     Methods,
     Placing,
@@ -85,7 +86,7 @@ class AuthorSession:
 
         with said_by_warnings():
             result = refined(job.scene, space, callback=follow)
-        return Refined(result.scene.embedding, result.before, result.after)
+        return Refined(result.scene.embedding, Errors(result.before, result.after))
 
     def pose(self, job: Posing, *, report: Report) -> Scene:
         """Turn a joint and place the new pose where it fits best."""
@@ -101,11 +102,7 @@ class AuthorSession:
         """Play a scene, and measure how fast the supporting foot is."""
         space = self._load(job.source, report)
         report("measuring the feet", None)
-        roots = play(job.scene, space).root_translation
-        try:
-            return Played(roots, foot_slide(job.scene, space), "")
-        except WorkbenchError as error:
-            return Played(roots, None, f"no speed of the feet: {error}")
+        return played(job.scene, space)
 
     def _load(self, source: Source, report: Report) -> PoseSpace:
         if self._space is None or source != self._source:
@@ -115,3 +112,12 @@ class AuthorSession:
                 raise WorkbenchError(f"{source.name}: got a table, want a motion")
             self._source, self._space = source, space
         return self._space
+
+
+def played(scene: Scene, space: PoseSpace) -> Played:
+    """Play a scene of a clip, and measure how fast the supporting foot is."""
+    roots = play(scene, space).root_translation
+    try:
+        return Played(roots, foot_slide(scene, space), "")
+    except WorkbenchError as error:
+        return Played(roots, None, f"no speed of the feet: {error}")

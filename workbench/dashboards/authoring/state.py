@@ -13,6 +13,7 @@ from workbench.authoring import History, Scene
 from workbench.dashboards.authoring.code import REFINED, placing_code, posing_code, script
 from workbench.dashboards.authoring.jobs import (
     Clip,
+    Errors,
     Job,
     Placing,
     Played,
@@ -89,9 +90,10 @@ class AuthorState:
         self._loaded: Clip | None = None
         self._clips: WeakKeyDictionary[Scene, Clip] = WeakKeyDictionary()
         self._unrefined: WeakSet[Scene] = WeakSet()
-        self._played: WeakKeyDictionary[Scene, Played] = WeakKeyDictionary()
+        # Of the scene that is shown only: there is a root for each frame of it.
+        self._played: tuple[Scene, Played] | None = None
         self._steps: WeakKeyDictionary[Scene, Step] = WeakKeyDictionary()
-        self._refined: WeakKeyDictionary[Scene, Refined] = WeakKeyDictionary()
+        self._refined: WeakKeyDictionary[Scene, Errors] = WeakKeyDictionary()
 
     @property
     def scene(self) -> Scene | None:
@@ -106,11 +108,12 @@ class AuthorState:
     @property
     def played(self) -> Played | None:
         """What the motion of the scene is like, if it is known."""
-        return None if self.scene is None else self._played.get(self.scene)
+        known = self._played is not None and self._played[0] is self.scene
+        return self._played[1] if self._played is not None and known else None
 
     @property
-    def refined(self) -> Refined | None:
-        """What the optimizer did to the scene, if it did something."""
+    def refined(self) -> Errors | None:
+        """What the optimizer was good for, if it placed the frames of the scene."""
         return None if self.scene is None else self._refined.get(self.scene)
 
     @property
@@ -124,6 +127,16 @@ class AuthorState:
             steps.append(step.code)
             scene = step.before
         return script(clip.source, reversed(steps))
+
+    def optimized_since(self, before: Scene) -> int | None:
+        """Count the optimizer's results since a scene; None if something else came between."""
+        count, scene = 0, self.scene
+        while scene is not None and scene is not before:
+            step = self._steps[scene]
+            if step.code != REFINED:
+                return None
+            count, scene = count + 1, step.before
+        return None if scene is None else count
 
     # Scenes.
 
@@ -155,7 +168,12 @@ class AuthorState:
             self.history = History(scene)
         else:
             self.history.do(label, scene)
+        self.drop_pose()
         self.drop_failed()
+
+    def open(self, opening: Opening, clip: Clip) -> None:
+        """Add the scene of a session, whose clip was checked, after the present one."""
+        self.do(opening.label, opening.scene, opening.step, clip=clip, moved=False)
 
     def ask_to_refine(self) -> None:
         """Let the optimizer place the frames of the present scene, whether or not it did."""
@@ -164,10 +182,21 @@ class AuthorState:
 
     def drop_failed(self) -> None:
         """Forget what could not be done: the person has gone on to something else."""
-        wanted = self.wanted
-        if wanted is not None and (wanted in self.failures or wanted.source in self.failures):
+        if self.wanted is not None and self.has_failed(self.wanted):
             self.wanted = None
         self.failures.clear()
+
+    def has_failed(self, wanted: Placing | Posing | Opening) -> bool:
+        """Tell whether what is wanted, or loading its clip, could not be done."""
+        return wanted in self.failures or wanted.source in self.failures
+
+    def drop_pose(self) -> bool:
+        """Give up a new pose whose place is not known yet; tells whether there was one."""
+        if not isinstance(self.wanted, Posing):
+            return False
+        waited = self.wanted not in self.failures
+        self.wanted = None
+        return waited
 
     def clip_of(self, source: Source) -> Clip | None:
         """Give a clip that is in memory."""
@@ -185,12 +214,14 @@ class AuthorState:
         if isinstance(job, Source):
             self._loaded = result
             if isinstance(self.wanted, Opening):
-                self._open(self.wanted, result)
+                opening, self.wanted = self.wanted, None
+                opening.check(result.space.motion)
+                self.open(opening, result)
         elif isinstance(job, (Placing, Posing)):
             self.wanted = None
             self._begin(job, _frozen(result))
         elif isinstance(job, Rendering):
-            self._played[job.scene] = result
+            self._played = job.scene, result
         elif job.scene is self.scene and self.history is not None:
             self._amend(job.scene, result)
 
@@ -221,7 +252,7 @@ class AuthorState:
             if isinstance(wanted, Posing):
                 # A new pose belongs to the scene in which it was made: better places of its
                 # frames, which would make another one, have to wait.
-                if wanted.scene is scene and wanted not in self.failures:
+                if wanted not in self.failures:
                     return [wanted]
             elif self.clip_of(wanted.source) is None:
                 jobs.append(wanted.source)
@@ -229,7 +260,7 @@ class AuthorState:
                 jobs.append(wanted)
         if scene is None or clip is None:
             return jobs
-        if scene not in self._played:
+        if self.played is None:
             jobs.append(Rendering(clip.source, scene))
         if self.refines and scene in self._unrefined:
             jobs.append(Refining(clip.source, scene))
@@ -246,17 +277,12 @@ class AuthorState:
         step = Step(placing_code(job), None)
         self.do(label, scene, step, clip=self.clip_of(job.source), moved=False)
 
-    def _open(self, opening: Opening, clip: Clip) -> None:
-        self.wanted = None
-        opening.check(clip.space.motion)
-        self.do(opening.label, opening.scene, opening.step, clip=clip, moved=False)
-
     def _amend(self, before: Scene, result: Refined) -> None:
         assert self.history is not None  # whoever calls has looked
         scene = before.laid_out(before.markers, result.embedding)
         self._clips[scene] = self._clips[before]
         self._steps[scene] = Step(REFINED, before)
-        self._refined[scene] = result
+        self._refined[scene] = result.errors
         self.history.amend(scene)
 
 

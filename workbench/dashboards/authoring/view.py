@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import ipywidgets as widgets
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from workbench.authoring import History, Scene, influence
 from workbench.dashboards.authoring.controls import AuthorControls
-from workbench.dashboards.authoring.jobs import Clip, Played, Refined
+from workbench.dashboards.authoring.jobs import Clip, Errors, Played
 from workbench.dashboards.comparison.code_cell import CodeControls
 from workbench.dashboards.shared.layout import alert, control_row, remark
 from workbench.dashboards.shared.progress_view import ProgressView
@@ -77,7 +77,8 @@ class AuthorView:
         self.progress = ProgressView("the places of in-between frames")
         self._message = widgets.HTML()
         self._feet_words = widgets.HTML()
-        self.code, self._script = CodeControls(), ""
+        self.code = CodeControls()
+        self._script: Callable[[], str] = str
         self.code.button.observe(lambda _: self.show_code(self._script), "value")
         self._make_page_fields()
         self._clip: Clip | None = None
@@ -97,6 +98,7 @@ class AuthorView:
         *,
         roots: NDArray[np.float64] | None,
         answered: int,
+        revision: int,
         selected: int | None = None,
         message: str = "",
     ) -> None:
@@ -112,6 +114,8 @@ class AuthorView:
             Where the root is while the motion plays; None to leave that to the markers.
         answered : int
             Number of the last edit that the scene has taken in or refused.
+        revision : int
+            Number of what is shown, by which the pad says what an edit was made on.
         selected : int, optional
             The marker to select.
         message : str
@@ -131,7 +135,7 @@ class AuthorView:
                 pad.selected = selected
             elif pad.selected >= len(scene.markers):
                 pad.selected = -1
-            pad.answered = answered
+            pad.revision, pad.answered = revision, answered
         self.files.enabled = True
 
     def show_feet(self, clip: Clip, scene: Scene, played: Played | None) -> None:
@@ -157,14 +161,14 @@ class AuthorView:
             self.feet.message = played.note
         self._feet_words.value = _about_feet(values, unit, scene.keep_feet)
 
-    def show_code(self, code: str) -> None:
-        """Offer the script that makes the scene again; it travels only where it is looked at."""
+    def show_code(self, code: Callable[[], str]) -> None:
+        """Offer the script that makes the scene again; it is written where it is looked at only."""
         self._script = code
         if self.code.button.value:
-            self.code.show(code)
+            self.code.show(code())
 
     def show_message(
-        self, clip: Clip | None, scene: Scene | None, refined: Refined | None, told: Sequence[str]
+        self, clip: Clip | None, scene: Scene | None, refined: Errors | None, told: Sequence[str]
     ) -> None:
         """Say what is shown, and what could not be done."""
         lines = [alert(words) for words in told]
@@ -269,7 +273,7 @@ def _about(clip: Clip, scene: Scene) -> str:
     return " · ".join(words)
 
 
-def _about_places(refined: Refined | None) -> str:
+def _about_places(refined: Errors | None) -> str:
     if refined is None:
         return ""
     return (
