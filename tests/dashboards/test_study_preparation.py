@@ -196,6 +196,13 @@ def test_the_link_for_participants_tells_a_folder_only_if_it_must(
     assert unquote(asked) == expected
 
 
+def test_the_preparation_says_that_the_files_name_is_seen(preparation: StudyPreparation) -> None:
+    """Before the study is made, so that it is not called after a method."""
+    parts = list(preparation.view.root.children)
+    below = parts[parts.index(preparation.controls.file_row) + 1]
+    assert "Participants can read the file's name" in below.value
+
+
 def test_an_unknown_method_is_refused() -> None:
     """In Python, where whoever wrote it sees the message."""
     with pytest.raises(WorkbenchError, match="selector: got 'none'"):
@@ -229,8 +236,8 @@ def test_what_failed_with_other_settings_does_not_hold_up_a_new_start(
     preparation.controls.choose([*CLIPS, str(tmp_path / "none.bvh")])
     assert preparation.message
     preparation.controls.choose(CLIPS)
-    before = preparation.design.items
+    before = preparation.design.stimuli
     preparation.view.progress.again.click()
-    after = preparation.design.items
+    after = preparation.design.stimuli
     assert after == before
     assert all(new is not old for new, old in zip(after, before, strict=True))
