@@ -26,7 +26,7 @@ verify: reproduce ## Check the report as a whole
 	$(BIN)/python -m tests.check_report $(REPORT)
 
 test: $(VENV)/installed ## Run all tests
-	$(BIN)/python -m pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
+	$(BIN)/python -m pytest --numprocesses 2 --dist loadfile --no-loadscope-reorder
 
 bench: $(VENV)/installed ## Measure the hot paths beside their baselines
 	$(BIN)/python -m pip install --quiet --constraint constraints.txt --editable '.[bench]'
