@@ -392,6 +392,19 @@ def test_a_loop_starts_again(mount: Callable) -> None:
     assert page.evaluate(f"[{PAD}.playing, mounted[0].model.get('time')]") == [False, 4.0]
 
 
+def test_the_original_is_a_ghost_that_can_be_hidden(mount: Callable) -> None:
+    """At a time where the pose differs from it, it is seen until its button is pressed."""
+    page = mount(pad())
+    page.evaluate(f"{PAD}.seek(4.0)")
+    button = page.get_by_role("button", name="Draw the original behind the pose")
+    with_ghost = page.evaluate(_STAGE)
+    button.click()
+    page.wait_for_function("before => " + _STAGE + " !== before", arg=with_ghost)
+    assert button.get_attribute("aria-pressed") == "false"
+    button.click()
+    page.wait_for_function("before => " + _STAGE + " === before", arg=with_ghost)
+
+
 def test_feet_of_python_move_the_root(mount: Callable) -> None:
     """At a time the root is where Python wants it; at a place it is the markers'."""
     roots = np.zeros((41, 3))

@@ -196,7 +196,8 @@ def test_a_new_pose_is_placed_before_frames_are_optimized(
     async def main() -> None:
         author.controls.refine.value = True
         do(author, "move", marker=2, to=[0.9, 0.2])
-        await asyncio.sleep(0.1)
+        while author._live.worker.current is None:
+            await asyncio.sleep(0)
         do(author, **EDITS["turn, optimizer's place"](first))
         await asyncio.wait_for(author.finished(), 60)
 
@@ -437,6 +438,17 @@ def test_markers_can_be_placed_anew(author: MotionAuthor, first: Scene) -> None:
     assert author.view.pad.undo_label == "place 8 markers by circle"
     author.undo()
     assert author.scene is first
+
+
+def test_a_file_of_ones_own_is_authored(author: MotionAuthor, tmp_path: Path) -> None:
+    """A BVH file is opened by its path, and its poses are those of the markers."""
+    own = tmp_path / "mine.bvh"
+    write_bvh(load(OTHER), own)
+    author.open(own)
+    assert author.message == ""
+    assert author.scene.clip == str(own)
+    read = load(str(own))
+    np.testing.assert_array_equal(author.scene.poses, read.rotations[author.scene.frames])
 
 
 def test_another_clip_is_a_step_that_can_be_undone(author: MotionAuthor, first: Scene) -> None:
