@@ -74,6 +74,28 @@ def test_the_pose_follows_the_mouse(mount: Callable) -> None:
     assert page.evaluate("mounted[0].model.saved") == 0
 
 
+def test_time_goes_from_red_over_green_to_blue_and_key_poses_have_black_borders(
+    mount: Callable,
+) -> None:
+    """As in Costa 2018, Figure 6.1: a red start, a green middle, a blue end."""
+    page = mount(pad())
+    colour = """(x, y) => [...pad.plane.base.getContext("2d").getImageData(
+      Math.round(x), Math.round(y), 1, 1).data].slice(0, 3)"""
+    of_curve = page.evaluate(
+        f"() => {{ const pad = {PAD}, colour = {colour};"
+        "return [2, 18, 38].map((frame) => colour(...pad.plane.toPixel("
+        "pad.scene.embedding.subarray(2 * frame, 2 * frame + 2)))); }"
+    )
+    assert [int(np.argmax(rgb)) for rgb in of_curve] == [0, 1, 2]
+    around_marker = page.evaluate(
+        f"() => {{ const pad = {PAD}, colour = {colour};"
+        "const [x, y] = pad.plane.toPixel(pad.scene.marker(2));"
+        "return Array.from({ length: 14 }, (_, i) => colour(x, y - i)); }"
+    )
+    assert max(around_marker[0]) > 90  # filled with its time's colour
+    assert min(max(rgb) for rgb in around_marker[3:]) < 60
+
+
 def test_leaving_the_plane_shows_the_time_again(mount: Callable) -> None:
     """The pose at the mouse is a look aside: the clock's comes back."""
     page = mount(pad(time=2.0))
