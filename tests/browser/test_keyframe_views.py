@@ -161,6 +161,32 @@ def test_arrow_keys_pick_the_next_number(mount: Callable, key: str, picked: int)
     assert page.evaluate("mounted[0].model.get('picked')") == picked
 
 
+def test_a_picked_number_stays_while_curves_arrive(mount: Callable) -> None:
+    """The next arrow key goes on from the picked number; once Python chose, that one is shown."""
+    page = mount(count_curve())
+    slider = page.get_by_role("slider", name="Number of keyframes")
+    slider.focus()
+    page.keyboard.press("ArrowRight")
+    page.evaluate(
+        """async () => {
+          const { model } = mounted[0];
+          model.set("series", model.get("series").slice(1));
+          model.set("message", "scs is being computed");
+          await new Promise(requestAnimationFrame);
+        }"""
+    )
+    assert slider.get_attribute("aria-valuenow") == "7"
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("mounted[0].model.get('picked')") == 8
+    page.evaluate(
+        """async () => {
+          mounted[0].model.set("count", 10);
+          await new Promise(requestAnimationFrame);
+        }"""
+    )
+    assert slider.get_attribute("aria-valuenow") == "10"
+
+
 def test_a_press_on_the_curve_picks_the_number_under_the_mouse(mount: Callable) -> None:
     """Pointing tells the errors of all methods there, pressing picks."""
     page = mount(count_curve())

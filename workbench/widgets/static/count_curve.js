@@ -21,14 +21,14 @@ class CountCurve {
     signal.addEventListener("abort", () => observer.disconnect());
     const on = (type, act) => this.canvas.addEventListener(type, act, { signal });
     on("pointermove", (event) => this.point(this.countAt(event.offsetX)));
-    on("pointerleave", () => this.point(model.get("count")));
+    on("pointerleave", () => this.point(this.count));
     on("click", (event) => this.pick(this.countAt(event.offsetX)));
     on("keydown", (event) => {
       const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
       if (!(event.key in steps)) return;
       event.preventDefault();
       event.stopPropagation();
-      this.pick((this.at || this.model.get("count")) + steps[event.key]);
+      this.pick((this.at || this.count) + steps[event.key]);
     });
     this.read();
   }
@@ -39,12 +39,15 @@ class CountCurve {
     this.message.textContent = this.model.get("message");
     const counts = this.series.flatMap((s) => s.counts);
     const [count, error] = [this.model.get("count"), this.model.get("error")];
+    const anew = count !== this.count || error !== this.error;
+    Object.assign(this, { count, error });
     this.low = Math.min(2, ...counts);
     this.high = Math.max(3, count, ...counts);
     this.top = Math.max(0, error ?? 0, ...this.series.flatMap((s) => s.errors)) || 1;
     this.canvas.setAttribute("aria-valuemin", String(this.low));
     this.canvas.setAttribute("aria-valuemax", String(this.high));
-    this.point(count);
+    // Curves arrive one by one: what is pointed at or picked meanwhile stays.
+    this.point(anew ? count : this.at);
   }
 
   pick(count) {
@@ -63,7 +66,7 @@ class CountCurve {
   }
 
   describe(count) {
-    const own = count === this.model.get("count") && this.model.get("error") !== null ? [`chosen ${this.model.get("error").toPrecision(3)}`] : [];
+    const own = count === this.count && this.error !== null ? [`chosen ${this.error.toPrecision(3)}`] : [];
     const others = this.series.flatMap(({ name, counts, errors }) => {
       const i = counts.indexOf(count);
       return i < 0 ? [] : [`${name} ${errors[i].toPrecision(3)}`];
@@ -100,17 +103,16 @@ class CountCurve {
       context.setLineDash([]);
       counts.forEach((count, k) => this.dot(context, count, errors[k], 2.6));
     });
-    const [count, error] = [this.model.get("count"), this.model.get("error")];
     context.fillStyle = theme.text;
-    if (count && error !== null) this.dot(context, count, error, 5.5);
-    if (this.at && this.at !== count) {
+    if (this.count && this.error !== null) this.dot(context, this.count, this.error, 5.5);
+    if (this.at && this.at !== this.count) {
       context.globalAlpha = 0.5;
       context.fillRect(this.xOf(this.at) - 0.5, COUNTS.top, 1, COUNTS.tall - COUNTS.top - COUNTS.bottom);
       context.globalAlpha = 1;
     }
     const swatch = (i) => `background: ${theme.palette[i % theme.palette.length]}`;
     const keys = this.series.map(({ name }, i) => element("span", {}, [element("i", { style: swatch(i) }), name]));
-    this.legend.replaceChildren(...keys, ...(count ? [element("span", { text: "● chosen" })] : []));
+    this.legend.replaceChildren(...keys, ...(this.count ? [element("span", { text: "● chosen" })] : []));
   }
 
   dot(context, count, error, size) {
