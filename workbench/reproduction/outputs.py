@@ -11,6 +11,7 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -207,7 +208,7 @@ def _stem(item: str, name: str) -> str:
 
 def read_parts(out: Path) -> list[dict[str, Any]]:
     """Read what the notebooks left in an output folder, in the order of its names."""
-    return [_read(path) for path in sorted((out / "parts").glob("*.json"))]
+    return list(_parts(out).values())
 
 
 def read_evidence(out: Path, claim: str) -> Evidence | None:
@@ -223,9 +224,9 @@ def read_evidence(out: Path, claim: str) -> Evidence | None:
 
 def forget(out: Path, notebook: str, items: set[str]) -> None:
     """Forget what a notebook made of its items earlier, before it runs again."""
-    for path in (out / "parts").glob("*.json"):
-        if _read(path)["item"] in items:
-            path.unlink()
+    for path, part in _parts(out).items():
+        if part["item"] in items:
+            path.unlink(missing_ok=True)
     (out / "data" / f"{notebook}.json").unlink(missing_ok=True)
 
 
@@ -257,6 +258,15 @@ def read_error(out: Path, notebook: str, item: str) -> str:
 
 def _outcome_path(out: Path, notebook: str) -> Path:
     return out / "notebooks" / f"{notebook}.outcome.json"
+
+
+def _parts(out: Path) -> dict[Path, dict[str, Any]]:
+    """Read the parts that are there, though another notebook may forget its own meanwhile."""
+    parts = {}
+    for path in sorted((out / "parts").glob("*.json")):
+        with suppress(FileNotFoundError):
+            parts[path] = _read(path)
+    return parts
 
 
 def _read(path: Path) -> dict[str, Any]:
