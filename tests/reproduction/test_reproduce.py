@@ -326,17 +326,34 @@ def test_the_kernel_is_this_interpreter(tmp_path: Path, monkeypatch):
 FIGURE = '{"data": [{"type": "scatter", "x": [1, 2], "y": [1, 2]}], "layout": {"height": 300}}'
 
 
-def test_figures_become_images(tmp_path: Path):
-    """With a browser, the PNG lies beside the figure and has the figure's height."""
+def need_chromium() -> None:
     if chromium_path() is None:
         assert os.environ.get("CI") != "true", "no chromium in CI"
         pytest.skip("no chromium on this machine: figures cannot be rendered")
-    (tmp_path / "figure.json").write_text(FIGURE)
-    assert write_pngs([tmp_path / "figure.json"]) == ""
-    content = (tmp_path / "figure.png").read_bytes()
-    assert content.startswith(b"\x89PNG")
-    width, height = (int.from_bytes(content[at : at + 4], "big") for at in (16, 20))
-    assert (width, height) == (images.SCALE * images.WIDTH, images.SCALE * 300)
+
+
+def test_figures_become_images(tmp_path: Path):
+    """With a browser, the PNG lies beside the figure and has the figure's height."""
+    need_chromium()
+    figures = []
+    for height in (300, 400, 520):
+        figures.append(tmp_path / f"{height}.json")
+        figures[-1].write_text(FIGURE.replace("300", str(height)))
+    assert write_pngs(figures, jobs=2) == ""
+    for figure in figures:
+        content = figure.with_suffix(".png").read_bytes()
+        assert content.startswith(b"\x89PNG")
+        width, height = (int.from_bytes(content[at : at + 4], "big") for at in (16, 20))
+        assert (width, height) == (images.SCALE * images.WIDTH, images.SCALE * int(figure.stem))
+
+
+def test_a_figure_that_cannot_be_drawn_is_told(tmp_path: Path):
+    """What plotly.js complains about becomes the notice, and there is no image."""
+    need_chromium()
+    (tmp_path / "figure.json").write_text('{"data": [], "layout": null}')
+    notice = write_pngs([tmp_path / "figure.json"])
+    assert re.fullmatch(r"No PNG images: TypeError: .*height.*", notice)
+    assert not (tmp_path / "figure.png").exists()
 
 
 def test_without_a_browser_there_is_a_notice(tmp_path: Path, monkeypatch):

@@ -36,9 +36,6 @@ if TYPE_CHECKING:
 
 PROFILES = ("quick", "full")
 
-#: So many figures take longer to render than a second browser takes to start.
-_WORTH_A_BROWSER = 12
-
 
 @dataclass(frozen=True)
 class ReproductionReport:
@@ -289,17 +286,12 @@ def _write_images(folder: Path, jobs: int, progress: Callable[[str], None]) -> l
             stale.append(figure)
     if stale:
         progress(f"rendering {len(stale)} images")
-    # A browser of its own for each share; large figures, which lie side by side, are dealt out.
-    n_shares = min(effective_n_jobs(jobs), len(stale) // _WORTH_A_BROWSER) or 1
-    shares = [stale[start::n_shares] for start in range(n_shares)]
-    with ThreadPoolExecutor(n_shares) as pool:
-        notices = list(dict.fromkeys(notice for notice in pool.map(write_pngs, shares) if notice))
-    if not notices:
+    notice = write_pngs(stale, jobs=effective_n_jobs(jobs))
+    if not notice:
         return []
     for figure in stale:
         image = figure.with_suffix(".png")
         if image.exists() and image.stat().st_mtime < figure.stat().st_mtime:
             image.unlink()
-    for notice in notices:
-        progress(f"  {notice}")
-    return notices
+    progress(f"  {notice}")
+    return [notice]
