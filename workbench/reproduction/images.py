@@ -10,6 +10,7 @@ import subprocess
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from workbench.errors import WorkbenchError
@@ -23,9 +24,20 @@ START_SECONDS, FIGURE_SECONDS = 60.0, 15.0
 #: Size of an image in pixels; a figure that sets its own height keeps it.
 WIDTH, HEIGHT, SCALE = 1000, 500, 2
 
-_RENDER_IMAGE = """
-async (figure, width, height, scale) =>
-  Plotly.toImage(figure, { format: "png", width, height: figure.layout.height || height, scale })
+_LOADED = """
+document.readyState === "complete" ||
+  new Promise((done) => addEventListener("load", () => done(true)))
+"""
+
+_PAGE = f"""<!doctype html>
+<meta charset="utf-8">
+<script src="%s"></script>
+<script>
+const renderImage = (figure) =>
+  Plotly.toImage(figure, {{
+    format: "png", width: {WIDTH}, height: figure.layout.height || {HEIGHT}, scale: {SCALE},
+  }});
+</script>
 """
 
 
@@ -88,19 +100,28 @@ async def _render(paths: Sequence[str], n_pages: int) -> None:
     library = Path(plotly.__file__).parent / "package_data" / "plotly.min.js"
     waiting = list(reversed(paths))
 
-    async def render_in_turn(browser: Browser) -> None:
-        page = await browser.create_tab()
-        await _evaluate(page, library.read_text(encoding="utf-8"))
-        await _evaluate(page, f"const renderImage = {_RENDER_IMAGE}")
+    async def render_in_turn(browser: Browser, address: str) -> None:
+        page = await _open(browser, address)
         while waiting:
             path = Path(waiting.pop())
-            figure = path.read_text(encoding="utf-8")
-            image = await _evaluate(page, f"renderImage({figure}, {WIDTH}, {HEIGHT}, {SCALE})")
+            image = await _evaluate(page, f"renderImage({path.read_text(encoding='utf-8')})")
             path.with_suffix(".png").write_bytes(base64.b64decode(image.partition(",")[2]))
 
-    async with Browser(headless=True) as browser:
-        n_wanted = min(n_pages, len(waiting))
-        await asyncio.gather(*(render_in_turn(browser) for _ in range(n_wanted)))
+    with TemporaryDirectory() as folder:
+        empty = Path(folder) / "page.html"
+        empty.write_text(_PAGE % library.as_uri(), encoding="utf-8")
+        async with Browser(headless=True) as browser:
+            await asyncio.gather(
+                *(render_in_turn(browser, empty.as_uri()) for _ in paths[:n_pages])
+            )
+
+
+async def _open(browser: Browser, address: str) -> Tab:
+    """Open a page and wait until its scripts have run."""
+    page = await browser.create_tab()
+    await page.send_command("Page.navigate", params={"url": address})
+    await _evaluate(page, _LOADED)
+    return page
 
 
 async def _evaluate(page: Tab, expression: str) -> str:
