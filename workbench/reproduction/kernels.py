@@ -173,6 +173,11 @@ def _serve() -> None:
     sys.modules[_UNREAD] = None  # type: ignore[assignment]  # as in run_kernel
     for module in _PRELOADED:
         import_module(module)
+    import numba
+
+    # The first function of a process that numba compiles or loads waits for what numba knows
+    # about all types. A trivial one, which runs in no threads, has that wait done here.
+    numba.njit(lambda: None)()  # type: ignore[call-arg]  # numba's types know no calls
     # The system then clears kernels away that have ended.
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     for line in sys.stdin:

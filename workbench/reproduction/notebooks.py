@@ -90,8 +90,9 @@ def this_interpreter() -> Iterator[None]:
     with tempfile.TemporaryDirectory() as folder:
         kernel = Path(folder) / "kernels" / "python3"
         kernel.mkdir(parents=True)
-        # The kernel listens on the loopback only; its notice about that is not for our readers.
-        options = ["-f", "{connection_file}", "--IPKernelApp.log_level=ERROR"]
+        # The kernel listens on the loopback only; its notice about that is not for our readers,
+        # nor is the one that Jupyter interrupted it when its notebook was done.
+        options = ["-f", "{connection_file}", "--IPKernelApp.log_level=CRITICAL"]
         specification: dict[str, Any] = {"display_name": "Python 3", "language": "python"}
         if CAN_FORK:
             specification["argv"] = options

@@ -161,27 +161,29 @@ def reproduce_items(
     partly = {item.notebook for item in ITEMS if item not in items}
     whole = [name for name in names if name not in partly]
     wanted = [*items, *(extra for extra in EXTRAS if extra.notebook in whole)]
-    for table in fetch_tables(_tables_of(names)):
-        progress(f"{table} is not here and was not to be had within seconds: going on without it")
-    results = folder / "results"
-    computed = _execute_runs(
-        whole, results, profile=profile, seed=seed, jobs=jobs, scheduler=scheduler, say=progress
-    )
-    tasks = {}
-    for name in names:
-        mine = [item.id for item in wanted if item.notebook == name]
-        tasks[name] = {
-            "profile": profile,
-            "seed": seed,
-            "jobs": 1 if name in computed else jobs,
-            "scheduler": None if name in computed else scheduler,
-            "out": str(folder),
-            "results": str(results),
-            "items": None if name in whole else mine,
-            # The notebook runs in another folder than the one that the path may start from.
-            "study": None if study is None else str(Path(study).expanduser().resolve()),
-        }
-    errors = _run_notebooks(notebooks, folder, tasks, wanted, jobs=jobs, say=progress)
+    # What kernels are copied from gets ready while runs are planned and executed.
+    with this_interpreter():
+        for table in fetch_tables(_tables_of(names)):
+            progress(f"{table} is not here nor to be had within seconds: going on without it")
+        results = folder / "results"
+        computed = _execute_runs(
+            whole, results, profile=profile, seed=seed, jobs=jobs, scheduler=scheduler, say=progress
+        )
+        tasks = {}
+        for name in names:
+            mine = [item.id for item in wanted if item.notebook == name]
+            tasks[name] = {
+                "profile": profile,
+                "seed": seed,
+                "jobs": 1 if name in computed else jobs,
+                "scheduler": None if name in computed else scheduler,
+                "out": str(folder),
+                "results": str(results),
+                "items": None if name in whole else mine,
+                # The notebook runs in another folder than the one that the path may start from.
+                "study": None if study is None else str(Path(study).expanduser().resolve()),
+            }
+        errors = _run_notebooks(notebooks, folder, tasks, wanted, jobs=jobs, say=progress)
     notices = _write_images(folder, jobs, progress)
     seconds = time.perf_counter() - start
     run = {"profile": profile, "seed": seed, "seconds": seconds, "notices": notices}
@@ -262,7 +264,7 @@ def _run_notebooks(
         return error
 
     n_threads = effective_n_jobs(jobs)
-    with this_interpreter(), ThreadPoolExecutor(n_threads) as pool:
+    with ThreadPoolExecutor(n_threads) as pool:
         ended = dict(zip(tasks, pool.map(run_one, tasks), strict=True))
     return {name: error for name, error in ended.items() if error}
 

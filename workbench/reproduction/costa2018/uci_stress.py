@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from workbench.experiments.bootstrap import bootstrap
 from workbench.experiments.grid import describe_failures
+from workbench.experiments.runs.schemes import scheme_name
 from workbench.reproduction.claims import Evidence
 from workbench.reproduction.costa2018.results import PROJECTORS
 from workbench.reproduction.costa2018.uci_projections import (
@@ -18,6 +19,7 @@ from workbench.reproduction.costa2018.uci_projections import (
     TWO_STEPS,
     data_name,
     finished,
+    scheme_of,
 )
 from workbench.reproduction.costa2018.uci_tables import UCI_TABLES, UciTable
 from workbench.reproduction.published import published
@@ -40,14 +42,19 @@ def ratios_of(
     results: pd.DataFrame, column: str = EQ_4_1, *, standardize: bool
 ) -> dict[tuple[str, str], list[float]]:
     """Gather stress ratios by table and seed projector, one for each seed."""
-    found = {}
-    for table in UCI_TABLES:
-        for method in PROJECTORS:
-            rows = finished(results, table, method)
-            values = rows.loc[rows["standardize"] == standardize, column].dropna()
-            if len(values):
-                found[table.title, method] = values.astype(float).tolist()
-    return found
+    done = results[(results["status"] == "done") & (results["standardize"] == standardize)]
+    known = done.dropna(subset=column).sort_values("seed")
+    by_run = {
+        run: rows.astype(float).tolist()
+        for run, rows in known.groupby(["dataset", "scheme"])[column]
+    }
+    names = {method: scheme_name(scheme_of(method)) for method in PROJECTORS}
+    found = {
+        (table.title, method): by_run.get((table.dataset, name), [])
+        for table in UCI_TABLES
+        for method, name in names.items()
+    }
+    return {run: values for run, values in found.items() if values}
 
 
 def table_5_3(results: pd.DataFrame, *, standardize: bool) -> pd.DataFrame:

@@ -109,9 +109,9 @@ def values_of(table: pd.DataFrame, runs: Iterable[KeyframeRun], column: str) -> 
         keys = done[names].fillna("").itertuples(index=False, name=None)
         values = pd.to_numeric(done[column], errors="coerce").tolist()
         found = dict(zip(keys, values, strict=True))
+    wanted = (run.specification() for run in runs)
     return [
-        found.get(tuple(run.specification()[name] or "" for name in names), float("nan"))
-        for run in runs
+        found.get(tuple(values[name] or "" for name in names), float("nan")) for values in wanted
     ]
 
 

@@ -104,11 +104,12 @@ def varied_values(table: pd.DataFrame, varied: str, column: str = "psnr") -> pd.
         number.
     """
     timed = table["n_frames"].notna() if "n_frames" in table else pd.Series(False, table.index)
-    rows = {}
-    for clip in dict.fromkeys(table.loc[~timed, "dataset"]):
-        runs = varied_runs(clip, varied, "full")
-        rows[clip] = dict(zip(runs, values_of(table, runs.values(), column), strict=True))
-    values = pd.DataFrame.from_dict(rows, orient="index", dtype=float)
+    clips = list(dict.fromkeys(table.loc[~timed, "dataset"]))
+    runs = pd.DataFrame.from_dict(
+        {clip: varied_runs(clip, varied, "full") for clip in clips}, orient="index", dtype=object
+    )
+    found = values_of(table, runs.to_numpy().ravel(), column)
+    values = pd.DataFrame(np.reshape(found, runs.shape), index=runs.index, columns=runs.columns)
     return values.dropna(axis="index", how="all").dropna(axis="columns", how="all")
 
 
