@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Callable, Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from workbench.errors import DataError, WorkbenchError
@@ -59,6 +60,29 @@ def motion_clips(profile: str) -> list[str]:
             "with mocap/bvh/ in WORKBENCH_DATA, or take the quick profile"
         )
     return names
+
+
+def some_clips(profile: str, quick: int) -> list[str]:
+    """Choose the clips of a profile: all of the full one, the shortest few of the quick one.
+
+    Parameters
+    ----------
+    profile : {"quick", "full"}
+    quick : int
+        How many the quick profile has time for.
+
+    Returns
+    -------
+    list of str
+    """
+    clips = motion_clips(profile)
+    return shortest(clips, quick) if _is_quick(profile) else clips
+
+
+def shortest(clips: Sequence[str], count: int) -> list[str]:
+    """Take the shortest clips, in their order; a user's own, of unknown length, count as long."""
+    chosen = sorted(clips, key=_length)[:count]
+    return [clip for clip in clips if clip in chosen]
 
 
 def excerpts() -> list[str]:
@@ -128,6 +152,16 @@ def _fetch_within_seconds(name: str) -> None:
     entry = lookup(name)
     assert entry is not None
     download(entry, cache_folder(), seconds=5.0)
+
+
+def _length(clip: str) -> float:
+    from workbench.datasets.catalogue import lookup
+    from workbench.datasets.entries import ExcerptEntry
+
+    entry = lookup(clip)
+    if isinstance(entry, ExcerptEntry):
+        return entry.stop - entry.start
+    return getattr(entry, "frames", None) or math.inf
 
 
 def _is_quick(profile: str) -> bool:

@@ -10,7 +10,6 @@ from workbench.errors import WorkbenchError
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.held_out import HeldOutRun
 from workbench.reproduction import profiles
-from workbench.reproduction.beyond.optimizer_runs import shortest
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
 
 #: Projectors by their names in Table 5.1 of Costa 2018.
@@ -67,7 +66,7 @@ def planned_runs(
     """
     return list(
         held_out_runs(
-            clips_of(profile) if clips is None else clips,
+            profiles.some_clips(profile, _QUICK_CLIPS) if clips is None else clips,
             tables_of(profile) if tables is None else tables,
             projectors=projectors_of(profile) if projectors is None else projectors,
             seed=seed,
@@ -123,12 +122,6 @@ def held_out_runs(
         for standardized in (False, True)
         for ratio in table_ratios
     ]
-
-
-def clips_of(profile: str) -> list[str]:
-    """Choose the clips of a profile."""
-    clips = profiles.motion_clips(profile)
-    return shortest(clips, _QUICK_CLIPS) if profile == "quick" else clips
 
 
 def tables_of(profile: str) -> list[str]:

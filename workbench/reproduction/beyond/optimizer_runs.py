@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
-from workbench.datasets.catalogue import lookup
-from workbench.datasets.entries import ExcerptEntry
 from workbench.errors import WorkbenchError
 from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.schemes import SchemeRun
 from workbench.reproduction.costa2018.keyframe_errors import RATIO
-from workbench.reproduction.profiles import motion_clips
+from workbench.reproduction.profiles import shortest, some_clips
 from workbench.schemes import SpatialScheme
 
 #: What all others are compared with.
@@ -55,19 +52,13 @@ def planned_runs(
     -------
     list of Run
     """
-    chosen = clips_of(profile) if clips is None else list(clips)
+    chosen = some_clips(profile, _QUICK_CLIPS) if clips is None else list(clips)
     names = projectors_of(profile) if projectors is None else list(projectors)
     with_markers = marker_projectors(profile) if projectors is None else names
     return [
         *optimizer_runs(chosen, seed=seed, projectors=names),
         *marker_runs(marker_clips(chosen, profile), seed=seed, projectors=with_markers),
     ]
-
-
-def clips_of(profile: str) -> list[str]:
-    """Choose the clips of a profile: all of the full one, the shortest of the quick one."""
-    clips = motion_clips(profile)
-    return shortest(clips, _QUICK_CLIPS) if profile == "quick" else clips
 
 
 def projectors_of(profile: str) -> list[str]:
@@ -140,19 +131,6 @@ def marker_clips(clips: list[str], profile: str) -> list[str]:
 def marker_projectors(profile: str) -> list[str]:
     """Choose the projectors with which a profile searches for markers."""
     return list(_QUICK_MARKER_PROJECTORS if profile == "quick" else PROJECTORS)
-
-
-def shortest(clips: Sequence[str], count: int) -> list[str]:
-    """Take the shortest clips, in their order; a user's own, of unknown length, count as long."""
-    chosen = sorted(clips, key=_length)[:count]
-    return [clip for clip in clips if clip in chosen]
-
-
-def _length(clip: str) -> float:
-    entry = lookup(clip)
-    if isinstance(entry, ExcerptEntry):
-        return entry.stop - entry.start
-    return getattr(entry, "frames", None) or math.inf
 
 
 def _projectors(names: Iterable[str] | None) -> list[str]:
