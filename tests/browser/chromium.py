@@ -26,10 +26,18 @@ def chromium_path() -> str | None:
     return shutil.which("chromium") or shutil.which("chromium-browser")
 
 
+def page_browser_path() -> str | None:
+    """Find what pages are opened with, best Debian's Chromium without windows.
+
+    It takes a third of the time of Chromium, which gets a toolbar ready for each page.
+    """
+    return shutil.which("chromium-headless-shell") or chromium_path()
+
+
 @contextmanager
 def open_browser() -> Iterator[Any]:
     """Start Chromium, or give None if there is none."""
-    path = chromium_path()
+    path = page_browser_path()
     if path is None:
         yield None
         return
