@@ -16,6 +16,7 @@ import pytest
 from tests.browser.chromium import chromium_path
 from tests.conftest import find_clip
 from workbench.datasets import load_space
+from workbench.experiments import cluster
 from workbench.optimization import VISUALIZATION_OPTIMIZER
 from workbench.selection.saliency import Saliency
 
@@ -347,8 +348,9 @@ def test_a_failing_notebook_fails_the_command(run, tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("item", ["costa2018:fig5.2", "costa2018:fig5.3"])
-def test_a_scheduler_that_does_not_answer_fails_the_command(run, tmp_path, item):
+def test_a_scheduler_that_does_not_answer_fails_the_command(run, tmp_path, monkeypatch, item):
     """Asked for a whole notebook or for one of its items, the runs go to the scheduler."""
+    monkeypatch.setattr(cluster, "_PATIENCE", 1.0)
     out = tmp_path / "report"
     status, _, err = run("reproduce", item, "--scheduler", "tcp://127.0.0.1:9", "--out", out)
     assert status == 2
@@ -397,8 +399,7 @@ def test_wrong_names_are_refused_before_anything_heavy_is_loaded():
 
 def test_compiling_is_said_once_and_only_when_it_happens(tmp_path):
     """A first call with an empty kernel cache says so on stderr; the next one is silent."""
-    words = [sys.executable, "-m", "workbench", "keyframes", "cmu/01_01-jump", "--json"]
-    words += ["--selector", "uniform", "--count", "5"]
+    words = [sys.executable, "-m", "workbench", "datasets", "check", "cmu/01_01", "--json"]
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
     first, second = (
         subprocess.run(words, check=True, capture_output=True, text=True, env=environment)
