@@ -161,30 +161,59 @@ def test_arrow_keys_pick_the_next_number(mount: Callable, key: str, picked: int)
     assert page.evaluate("mounted[0].model.get('picked')") == picked
 
 
-def test_a_picked_number_stays_while_curves_arrive(mount: Callable) -> None:
-    """The next arrow key goes on from the picked number; once Python chose, that one is shown."""
-    page = mount(count_curve())
+def tell(page: Any, **traits: Any) -> None:
+    """Let Python set traits of the count curve, and wait until they are shown."""
+    page.evaluate(
+        """async (traits) => {
+          for (const [name, value] of Object.entries(traits)) mounted[0].model.set(name, value);
+          await new Promise(requestAnimationFrame);
+        }""",
+        traits,
+    )
+
+
+def shown_count(page: Any) -> int:
     slider = page.get_by_role("slider", name="Number of keyframes")
-    slider.focus()
+    return int(slider.get_attribute("aria-valuenow"))
+
+
+def test_a_picked_number_stays_until_its_keyframes_are_there(mount: Callable) -> None:
+    """Curves and keyframes of an earlier number may arrive while arrow keys go on."""
+    page = mount(count_curve())
+    page.get_by_role("slider", name="Number of keyframes").focus()
     page.keyboard.press("ArrowRight")
-    page.evaluate(
-        """async () => {
-          const { model } = mounted[0];
-          model.set("series", model.get("series").slice(1));
-          model.set("message", "scs is being computed");
-          await new Promise(requestAnimationFrame);
-        }"""
-    )
-    assert slider.get_attribute("aria-valuenow") == "7"
+    tell(page, waiting=True)
+    tell(page, series=count_curve().series[1:], message="scs is being computed")
+    assert shown_count(page) == 7
     page.keyboard.press("ArrowRight")
+    tell(page, count=7, error=0.38)
+    assert shown_count(page) == 8
     assert page.evaluate("mounted[0].model.get('picked')") == 8
-    page.evaluate(
-        """async () => {
-          mounted[0].model.set("count", 10);
-          await new Promise(requestAnimationFrame);
-        }"""
-    )
-    assert slider.get_attribute("aria-valuenow") == "10"
+    tell(page, count=8, error=0.35, waiting=False)
+    tell(page, count=5, error=0.5)
+    assert shown_count(page) == 5
+
+
+def test_a_number_that_is_not_found_gives_way_to_the_one_that_is_shown(mount: Callable) -> None:
+    """A search that failed or was cancelled leaves the keyframes as they were."""
+    page = mount(count_curve())
+    page.get_by_role("slider", name="Number of keyframes").focus()
+    page.keyboard.press("ArrowRight")
+    tell(page, waiting=True)
+    tell(page, waiting=False)
+    assert shown_count(page) == 6
+
+
+def test_no_more_keyframes_are_picked_than_there_can_be(mount: Callable) -> None:
+    """The arrow key stops at the largest number, and goes back from there."""
+    page = mount(count_curve())
+    tell(page, most=8)
+    page.get_by_role("slider", name="Number of keyframes").focus()
+    for _ in range(4):
+        page.keyboard.press("ArrowRight")
+    assert shown_count(page) == 8
+    page.keyboard.press("ArrowLeft")
+    assert shown_count(page) == 7
 
 
 def test_a_press_on_the_curve_picks_the_number_under_the_mouse(mount: Callable) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import json
 import os
+import shutil
 import subprocess
 import sys
 import time
@@ -129,11 +130,21 @@ def test_kernels_end_with_who_asked_for_them(tmp_path):
 
 
 @FORKS
-def test_without_the_serving_process_there_is_a_reason(tmp_path):
+def test_a_serving_process_that_ended_is_replaced(tmp_path):
+    """It may end while runs are executed for hours; notebooks run all the same."""
+    with this_interpreter():
+        assert kernels._server is not None
+        kernels._server._process.kill()
+        assert state_of_kernel(notebook(tmp_path, STATE), tmp_path / "out")["imported"]
+
+
+@FORKS
+def test_without_the_serving_process_there_is_a_reason(tmp_path, monkeypatch):
     """A kernel that cannot be started is one sentence in the notebook's record."""
     with this_interpreter():
         assert kernels._server is not None
         kernels._server._process.kill()
+        monkeypatch.setattr(kernels.sys, "executable", shutil.which("false"))
         error = run_notebook(notebook(tmp_path, "1"), tmp_path, {}, lambda _: None, items=[])
     assert "the process that starts kernels ended by itself" in error
     launch = kernels.ForkedKernel().launch_kernel([])

@@ -9,7 +9,12 @@ import pytest
 from workbench.datasets import Status, list_datasets, load
 from workbench.errors import DataError, WorkbenchError
 from workbench.reproduction import profiles
-from workbench.reproduction.profiles import absent_tables, fetch_tables, motion_clips
+from workbench.reproduction.profiles import (
+    absent_tables,
+    fetch_tables,
+    motion_clips,
+    some_clips,
+)
 
 PAGE_BLOCKS = "uci/page-blocks"
 
@@ -26,12 +31,21 @@ def test_quick_uses_short_excerpts_of_the_bundled_clips():
     assert all(129 <= len(load(name)) <= 1146 for name in clips)
 
 
+def test_some_clips_of_the_quick_profile_are_its_shortest():
+    """They keep their order, and no clip that is left out is shorter."""
+    clips, few = motion_clips("quick"), some_clips("quick", 3)
+    assert [clip for clip in clips if clip in few] == few
+    lengths = {clip: len(load(clip)) for clip in clips}
+    assert sorted(lengths[clip] for clip in few) == sorted(lengths.values())[:3]
+
+
 @pytest.mark.skipif(
     not os.environ.get("WORKBENCH_DATA"), reason="needs CMU clips in a folder in WORKBENCH_DATA"
 )
 def test_full_uses_the_clips_in_the_range_of_the_thesis():
     """Whole clips of 129 to 1146 frames: the named 05_10, not 01_01 with 2751."""
     clips = motion_clips("full")
+    assert some_clips("full", 3) == clips
     assert "cmu/05_10" in clips
     assert "cmu/01_01" not in clips
     assert all("-" not in name for name in clips)

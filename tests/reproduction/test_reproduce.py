@@ -8,12 +8,15 @@ import re
 import shutil
 import subprocess
 import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from html.parser import HTMLParser
 from pathlib import Path
 
 import nbformat
 import pandas as pd
+import psutil
 import pytest
 from nbformat.v4 import new_code_cell, new_notebook
 
@@ -332,28 +335,60 @@ def need_chromium() -> None:
         pytest.skip("no chromium on this machine: figures cannot be rendered")
 
 
-def test_figures_become_images(tmp_path: Path):
+def figures_of_heights(folder: Path, *heights: int) -> list[Path]:
+    """Write a figure of each height, named by it."""
+    paths = [folder / f"{height}.json" for height in heights]
+    for path in paths:
+        path.write_text(FIGURE.replace("300", path.stem))
+    return paths
+
+
+def size_of_png(path: Path) -> tuple[int, ...]:
+    content = path.read_bytes()
+    assert content.startswith(b"\x89PNG")
+    return tuple(int.from_bytes(content[at : at + 4], "big") for at in (16, 20))
+
+
+def test_figures_become_images(tmp_path: Path, monkeypatch):
     """With a browser, the PNG lies beside the figure and has the figure's height."""
     need_chromium()
-    figures = []
-    for height in (300, 400, 520):
-        figures.append(tmp_path / f"{height}.json")
-        figures[-1].write_text(FIGURE.replace("300", str(height)))
+    monkeypatch.setattr(images, "_WORTH_A_PAGE", 1)  # so that two pages share the work
+    figures = figures_of_heights(tmp_path, 300, 400, 520)
     assert write_pngs(figures, jobs=2) == ""
     for figure in figures:
-        content = figure.with_suffix(".png").read_bytes()
-        assert content.startswith(b"\x89PNG")
-        width, height = (int.from_bytes(content[at : at + 4], "big") for at in (16, 20))
-        assert (width, height) == (images.SCALE * images.WIDTH, images.SCALE * int(figure.stem))
+        wanted = (images.SCALE * images.WIDTH, images.SCALE * int(figure.stem))
+        assert size_of_png(figure.with_suffix(".png")) == wanted
 
 
-def test_a_figure_that_cannot_be_drawn_is_told(tmp_path: Path):
-    """What plotly.js complains about becomes the notice, and there is no image."""
+def test_a_figure_that_cannot_be_rendered_is_named_and_the_others_are(tmp_path: Path):
+    """What plotly.js complains about is said, and what comes after it is rendered."""
     need_chromium()
-    (tmp_path / "figure.json").write_text('{"data": [], "layout": null}')
-    notice = write_pngs([tmp_path / "figure.json"])
-    assert re.fullmatch(r"No PNG images: TypeError: .*height.*", notice)
-    assert not (tmp_path / "figure.png").exists()
+    first, last = figures_of_heights(tmp_path, 300, 400)
+    broken = tmp_path / "broken.json"
+    broken.write_text("null")
+    notice = write_pngs([first, broken, last])
+    assert notice.startswith("1 of 3 PNG images are missing: broken: TypeError: ")
+    assert not broken.with_suffix(".png").exists()
+    assert size_of_png(last.with_suffix(".png")) == (2000, 800)
+
+
+def test_a_browser_that_ends_on_the_way_is_told(tmp_path: Path):
+    """What it rendered is kept, and the notice says in words why the rest is missing."""
+    need_chromium()
+    figures = figures_of_heights(tmp_path, *range(300, 500))
+    with ThreadPoolExecutor(1) as pool:
+        notice = pool.submit(write_pngs, figures)
+        while not figures[0].with_suffix(".png").exists():
+            assert not notice.done()
+            time.sleep(0.01)
+        browsers = psutil.Process().children(recursive=True)
+        for process in browsers:
+            if "chromium" in process.name():
+                process.kill()
+    n_made = sum(figure.with_suffix(".png").exists() for figure in figures)
+    assert 0 < n_made < 200
+    words = f"{200 - n_made} of 200 PNG images are missing: the browser ended by itself"
+    assert notice.result() == words
 
 
 def test_without_a_browser_there_is_a_notice(tmp_path: Path, monkeypatch):

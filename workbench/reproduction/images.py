@@ -4,29 +4,38 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import json
 import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from workbench.errors import WorkbenchError
+from workbench.files import write_atomically
 
 if TYPE_CHECKING:
     from choreographer import Browser, Tab
 
-#: Seconds for the browser to start, and for each figure.
+#: Seconds for the browser or a page of it to start, and for each figure.
 START_SECONDS, FIGURE_SECONDS = 60.0, 15.0
 
 #: Size of an image in pixels; a figure that sets its own height keeps it.
 WIDTH, HEIGHT, SCALE = 1000, 500, 2
 
+#: So many figures take longer to render than another page takes to load plotly.js, and more
+#: pages than the most take memory that other programs may need.
+_WORTH_A_PAGE, _MOST_PAGES = 12, 8
+
 _LOADED = """
-document.readyState === "complete" ||
-  new Promise((done) => addEventListener("load", () => done(true)))
+new Promise((done) => {
+  const tell = () => done(typeof Plotly === "object" ? "loaded" : "");
+  if (document.readyState === "complete") tell();
+  else addEventListener("load", tell);
+})
 """
 
 _PAGE = f"""<!doctype html>
@@ -35,7 +44,7 @@ _PAGE = f"""<!doctype html>
 <script>
 const renderImage = (figure) =>
   Plotly.toImage(figure, {{
-    format: "png", width: {WIDTH}, height: figure.layout.height || {HEIGHT}, scale: {SCALE},
+    format: "png", width: {WIDTH}, height: figure.layout?.height || {HEIGHT}, scale: {SCALE},
   }});
 </script>
 """
@@ -44,40 +53,57 @@ const renderImage = (figure) =>
 def write_pngs(figures: Sequence[Path], *, jobs: int = 1, seconds: float | None = None) -> str:
     """Render figures, in a process of its own that is ended when it takes too long.
 
+    A figure that cannot be rendered does not keep the others from it.
+
     Parameters
     ----------
     figures : sequence of Path
         Figures as JSON; the PNG is written beside each.
     jobs : int
-        Number of pages of the browser that render at once.
+        Number of pages of the browser that may render at once.
     seconds : float, optional
         Time limit; by default one minute and 15 s for each figure.
 
     Returns
     -------
     str
-        Empty if all went well, else why there are no images, in one sentence.
+        Empty if all went well, else which images there are not and why, in one sentence.
     """
     if not figures:
         return ""
     limit = START_SECONDS + FIGURE_SECONDS * len(figures) if seconds is None else seconds
+    n_pages = max(1, min(jobs, len(figures) // _WORTH_A_PAGE, _MOST_PAGES))
+    began = time.time()
     process = subprocess.Popen(  # noqa: S603 - this interpreter on our own files
-        [sys.executable, "-m", "workbench.reproduction.images", str(jobs), *map(str, figures)],
-        stdout=subprocess.DEVNULL,
+        [sys.executable, "-m", "workbench.reproduction.images", str(n_pages), *map(str, figures)],
+        stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
         errors="replace",
-        start_new_session=True,  # so that the browser ends with the process
+        start_new_session=True,  # the browser, in another session, ends when its pipe closes
     )
     try:
-        _, complaint = process.communicate(timeout=limit)
+        answer, complaint = process.communicate(timeout=limit)
     except subprocess.TimeoutExpired:
         _end(process)
-        return f"No PNG images: the browser did not finish within {limit:g} s."
-    if process.returncode == 0:
+        reason = f"the browser did not finish within {limit:g} s."
+    else:
+        if process.returncode == 0:
+            reason = "".join(json.loads(answer)[:1])
+        else:
+            lines = complaint.strip().splitlines()
+            reason = lines[-1] if lines else f"exit status {process.returncode}"
+    missing = [figure for figure in figures if not _is_made(figure.with_suffix(".png"), began)]
+    if not missing:
         return ""
-    reason = (complaint.strip().splitlines() or [f"exit status {process.returncode}"])[-1]
-    return f"No PNG images: {reason}"
+    if len(missing) == len(figures):
+        return f"No PNG images: {reason}"
+    return f"{len(missing)} of {len(figures)} PNG images are missing: {reason}"
+
+
+def _is_made(image: Path, began: float) -> bool:
+    # Times of files are coarser than the clock on some systems.
+    return image.exists() and image.stat().st_mtime >= began - 2.0
 
 
 def _end(process: subprocess.Popen[str]) -> None:
@@ -88,40 +114,65 @@ def _end(process: subprocess.Popen[str]) -> None:
     process.communicate()
 
 
-async def _render(paths: Sequence[str], n_pages: int) -> None:
-    """Render figures in pages that load plotly.js once.
+async def _render(paths: Sequence[str], n_pages: int) -> list[str]:
+    """Render figures in pages that load plotly.js once; give what could not be rendered, and why.
 
     What plotly offers for this, kaleido, loads it anew for each figure, which takes longer than
     to draw most of them, and a typesetter from the network, which none of them needs.
     """
     import plotly
     from choreographer import Browser
+    from choreographer.utils import TmpDirectory
 
     library = Path(plotly.__file__).parent / "package_data" / "plotly.min.js"
-    waiting = list(reversed(paths))
+    waiting = [Path(path) for path in reversed(paths)]
+    complaints = []
 
     async def render_in_turn(browser: Browser, address: str) -> None:
-        page = await _open(browser, address)
+        page: Tab | None = None
         while waiting:
-            path = Path(waiting.pop())
-            image = await _evaluate(page, f"renderImage({path.read_text(encoding='utf-8')})")
-            path.with_suffix(".png").write_bytes(base64.b64decode(image.partition(",")[2]))
+            path = waiting.pop()
+            try:
+                if page is None:
+                    page = await asyncio.wait_for(_open(browser, address), START_SECONDS)
+                image = await asyncio.wait_for(_image(page, path), FIGURE_SECONDS)
+                write_atomically(path.with_suffix(".png"), image)
+            except (WorkbenchError, OSError, ValueError) as error:
+                complaints.append(f"{path.stem}: {_reason(error)}")
+                page = None
 
-    with TemporaryDirectory() as folder:
-        empty = Path(folder) / "page.html"
-        empty.write_text(_PAGE % library.as_uri(), encoding="utf-8")
-        async with Browser(headless=True) as browser:
-            await asyncio.gather(
-                *(render_in_turn(browser, empty.as_uri()) for _ in paths[:n_pages])
-            )
+    async with Browser(headless=True) as browser:
+        # Some browsers may not read the system's folder of temporary files.
+        folder = TmpDirectory(sneak=browser.is_isolated())
+        try:
+            empty = Path(folder.path) / "page.html"
+            empty.write_text(_PAGE % library.as_uri(), encoding="utf-8")
+            address = empty.as_uri()
+            await asyncio.gather(*(render_in_turn(browser, address) for _ in range(n_pages)))
+        finally:
+            folder.clean()
+    return complaints
 
 
 async def _open(browser: Browser, address: str) -> Tab:
     """Open a page and wait until its scripts have run."""
     page = await browser.create_tab()
-    await page.send_command("Page.navigate", params={"url": address})
-    await _evaluate(page, _LOADED)
+    answer = await page.send_command("Page.navigate", params={"url": address})
+    failed = answer.get("result", {}).get("errorText")
+    if failed:
+        raise WorkbenchError(f"the browser cannot open a file of this user ({failed})")
+    if not await _evaluate(page, _LOADED):
+        raise WorkbenchError("the browser cannot read plotly.js")
     return page
+
+
+async def _image(page: Tab, figure: Path) -> bytes:
+    described = figure.read_text(encoding="utf-8")
+    image = await _evaluate(page, f"renderImage({described})")
+    content = base64.b64decode(image.partition(",")[2])
+    if not content:
+        raise WorkbenchError("plotly.js gave no image")
+    return content
 
 
 async def _evaluate(page: Tab, expression: str) -> str:
@@ -130,24 +181,38 @@ async def _evaluate(page: Tab, expression: str) -> str:
     answer = await page.send_command("Runtime.evaluate", params=wanted)
     result = answer.get("result", {})
     if "exceptionDetails" in result:
-        thrown = result["exceptionDetails"].get("exception", {})
-        raise WorkbenchError(str(thrown.get("description") or thrown.get("value") or thrown))
+        details = result["exceptionDetails"]
+        thrown = details.get("exception", {})
+        raise WorkbenchError(
+            str(thrown.get("description") or thrown.get("value") or details.get("text"))
+        )
     if "error" in answer:
         raise WorkbenchError(str(answer["error"].get("message", answer["error"])))
     return str(result["result"].get("value", ""))
 
 
-def _main(jobs: str, *paths: str) -> int:
-    """Render the figures; 1 and one line on stderr if that is not possible."""
+def _reason(error: BaseException) -> str:
+    """Say in a line what kept figures from being rendered."""
+    name = type(error).__name__
+    if name == "ChromeNotFoundError":
+        return "no Chrome or Chromium was found on this machine"
+    # Whoever waits for an answer when the browser ends is cancelled.
+    if name in ("CancelledError", "ChannelClosedError", "BrowserClosedError"):
+        return "the browser ended by itself"
+    if isinstance(error, TimeoutError):
+        return "the browser gave no answer in time"
+    lines = str(error.args[0]).strip().splitlines() if error.args else []
+    return lines[0] if lines else name
+
+
+def _main(n_pages: str, *paths: str) -> int:
+    """Print complaints as JSON; or end with 1 and a line on stderr if nothing can be rendered."""
     try:
-        asyncio.run(_render(paths, int(jobs)))
-    except Exception as error:  # whatever a missing or broken browser raises
-        text = str(error).strip()
-        if "chrome" in type(error).__name__.lower():
-            text = "no Chrome or Chromium was found on this machine"
-        first = (text.splitlines() or [type(error).__name__])[0]
-        print(first, file=sys.stderr)  # noqa: T201 - read by write_pngs
+        complaints = asyncio.run(_render(paths, int(n_pages)))
+    except (Exception, asyncio.CancelledError) as error:  # whatever a missing browser raises
+        print(_reason(error), file=sys.stderr)  # noqa: T201 - read by write_pngs
         return 1
+    print(json.dumps(complaints))  # noqa: T201 - read by write_pngs
     return 0
 
 

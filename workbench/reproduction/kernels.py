@@ -14,7 +14,7 @@ import subprocess
 import sys
 import threading
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from typing import Any
 
@@ -58,32 +58,47 @@ class _Server:
     """The process that forks kernels, as the process that wants them sees it."""
 
     def __init__(self) -> None:
-        # A session of its own, so that Ctrl-C reaches who asked for kernels, and not these.
-        self._process = subprocess.Popen(  # noqa: S603 - this interpreter on our own module
-            [sys.executable, "-m", __name__],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-            start_new_session=True,
-        )
+        self._process = _start_server()
         self._turn = threading.Lock()
 
     def fork(self, arguments: list[str], folder: str, environment: dict[str, str]) -> int:
         """Start a kernel as a process would be started with these; give its process id."""
-        assert self._process.stdin is not None
-        assert self._process.stdout is not None
+        line = json.dumps([arguments, folder, environment]) + "\n"
         with self._turn:
             try:
-                self._process.stdin.write(json.dumps([arguments, folder, environment]) + "\n")
-                self._process.stdin.flush()
-                return int(self._process.stdout.readline())
+                return self._answer(line)
+            except (OSError, ValueError):
+                # It waited for hours maybe, and ended for want of memory, say.
+                self.close()
+                self._process = _start_server()
+            try:
+                return self._answer(line)
             except (OSError, ValueError):
                 raise WorkbenchError("the process that starts kernels ended by itself") from None
+
+    def _answer(self, line: str) -> int:
+        assert self._process.stdin is not None
+        assert self._process.stdout is not None
+        self._process.stdin.write(line)
+        self._process.stdin.flush()
+        return int(self._process.stdout.readline())
 
     def close(self) -> None:
         """End it; kernels that still run end too, because they look after it."""
         self._process.kill()
-        self._process.communicate()
+        with suppress(BrokenPipeError):
+            self._process.communicate()
+
+
+def _start_server() -> subprocess.Popen[str]:
+    # A session of its own, so that Ctrl-C reaches who asked for kernels, and not these.
+    return subprocess.Popen(  # noqa: S603 - this interpreter on our own module
+        [sys.executable, "-m", __name__],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
 
 
 _server: _Server | None = None

@@ -74,6 +74,11 @@ def some_clips(profile: str, quick: int) -> list[str]:
     Returns
     -------
     list of str
+
+    Raises
+    ------
+    WorkbenchError
+        As :func:`motion_clips`.
     """
     clips = motion_clips(profile)
     return shortest(clips, quick) if _is_quick(profile) else clips

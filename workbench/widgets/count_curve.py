@@ -18,10 +18,15 @@ class CountCurve(anywidget.AnyWidget):
         rise.
     count : int
         The number that is shown elsewhere; 0 for none.
+    most : int
+        The largest number that there can be; 0 if it is not known.
     error : float
         Its error; None if it is not known.
     picked : int
         The number that a person asks for; Python sets it back to 0.
+    waiting : bool
+        Whether keyframes are being found: what was picked is shown until they are, or will not
+        be.
     unit : str
         What the error is.
     message : str
@@ -33,7 +38,9 @@ class CountCurve(anywidget.AnyWidget):
 
     series = traitlets.List(traitlets.Dict()).tag(sync=True)
     count = traitlets.Int(0).tag(sync=True)
+    most = traitlets.Int(0).tag(sync=True)
     error = traitlets.Float(None, allow_none=True).tag(sync=True)
     picked = traitlets.Int(0).tag(sync=True)
+    waiting = traitlets.Bool(False).tag(sync=True)
     unit = traitlets.Unicode("error").tag(sync=True)
     message = traitlets.Unicode("").tag(sync=True)

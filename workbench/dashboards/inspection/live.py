@@ -152,10 +152,15 @@ class LiveInspector:
         if clip is not None and result is not None:
             plan.last = result
             view.show_keyframes(clip, result)
-        view.show_counts(plan.curves, plan.last, plan.about_curves())
-        view.progress.show_busy(
-            any(w.current is not None for w in (self._worker, self._curve_worker))
+        waiting = self._worker.current is not None
+        view.show_counts(
+            plan.curves,
+            plan.last,
+            plan.about_curves(),
+            most=self.controls.count.max,
+            waiting=waiting,
         )
+        view.progress.show_busy(waiting or self._curve_worker.current is not None)
         view.show_message(clip, plan.last, plan.told())
 
     @contextmanager

@@ -106,7 +106,13 @@ class InspectorView:
                 picture.svg = svg
 
     def show_counts(
-        self, curves: dict[str, ErrorCurve], result: KeyframeResult | None, message: str
+        self,
+        curves: dict[str, ErrorCurve],
+        result: KeyframeResult | None,
+        message: str,
+        *,
+        most: int,
+        waiting: bool,
     ) -> None:
         """Show how the error falls with the number of keyframes.
 
@@ -118,6 +124,10 @@ class InspectorView:
             What is shown elsewhere.
         message : str
             What is missing, and why.
+        most : int
+            The largest number of keyframes that can be chosen.
+        waiting : bool
+            Whether other keyframes are being found.
         """
         series = [
             {"name": name, "counts": curve.counts.tolist(), "errors": curve.errors.tolist()}
@@ -129,6 +139,7 @@ class InspectorView:
             self.counts.count = len(result.keyframes) if result else 0
             self.counts.error = result.error if result else None
             self.counts.message = message
+            self.counts.most, self.counts.waiting = most, waiting
 
     def show_message(
         self, clip: Clip | None, result: KeyframeResult | None, failures: Sequence[str]

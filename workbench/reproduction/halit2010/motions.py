@@ -109,10 +109,8 @@ def values_of(table: pd.DataFrame, runs: Iterable[KeyframeRun], column: str) -> 
         keys = done[names].fillna("").itertuples(index=False, name=None)
         values = pd.to_numeric(done[column], errors="coerce").tolist()
         found = dict(zip(keys, values, strict=True))
-    wanted = (run.specification() for run in runs)
-    return [
-        found.get(tuple(values[name] or "" for name in names), float("nan")) for values in wanted
-    ]
+    described = (run.specification() for run in runs)
+    return [found.get(tuple(of[name] or "" for name in names), float("nan")) for of in described]
 
 
 def short_titles(table: pd.DataFrame) -> dict[str, str]:

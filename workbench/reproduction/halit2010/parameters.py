@@ -108,8 +108,8 @@ def varied_values(table: pd.DataFrame, varied: str, column: str = "psnr") -> pd.
     runs = pd.DataFrame.from_dict(
         {clip: varied_runs(clip, varied, "full") for clip in clips}, orient="index", dtype=object
     )
-    found = values_of(table, runs.to_numpy().ravel(), column)
-    values = pd.DataFrame(np.reshape(found, runs.shape), index=runs.index, columns=runs.columns)
+    found = np.array(values_of(table, runs.to_numpy().ravel(), column), dtype=np.float64)
+    values = pd.DataFrame(found.reshape(runs.shape), index=runs.index, columns=runs.columns)
     return values.dropna(axis="index", how="all").dropna(axis="columns", how="all")
 
 

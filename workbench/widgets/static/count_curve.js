@@ -7,28 +7,31 @@ const COUNT_HINT = "Press on the curve, or use arrow keys, to choose a number of
 
 class CountCurve {
   constructor(model, root, signal) {
-    Object.assign(this, { model, root, at: 0 });
+    // Where the mouse points, if it does, and the number that was picked, until its keyframes
+    // are there; 0 for none.
+    Object.assign(this, { model, root, pointed: 0, picked: 0 });
     this.canvas = element("canvas", { class: "wb-player-counts", tabindex: "0", role: "slider", "aria-label": "Number of keyframes", title: COUNT_HINT });
     this.title = element("div", { class: "wb-title" });
     this.legend = element("div", { class: "wb-sides" });
     this.readout = element("div", { class: "wb-detail" });
     this.message = element("div", { class: "wb-detail", role: "status" });
     root.append(this.title, this.legend, this.canvas, this.readout, this.message, element("p", { class: "wb-hint", text: COUNT_HINT }));
-    onTraits(model, ["series", "count", "error", "unit", "message"], () => this.read(), signal);
+    onTraits(model, ["series", "count", "most", "error", "unit", "message", "waiting"], () => this.read(), signal);
     watchTheme(() => this.draw(), signal);
     const observer = new ResizeObserver(() => this.draw());
     observer.observe(root);
     signal.addEventListener("abort", () => observer.disconnect());
     const on = (type, act) => this.canvas.addEventListener(type, act, { signal });
     on("pointermove", (event) => this.point(this.countAt(event.offsetX)));
-    on("pointerleave", () => this.point(this.count));
+    on("pointerleave", () => this.point(0));
     on("click", (event) => this.pick(this.countAt(event.offsetX)));
     on("keydown", (event) => {
       const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
       if (!(event.key in steps)) return;
       event.preventDefault();
       event.stopPropagation();
-      this.pick((this.at || this.count) + steps[event.key]);
+      this.point(0);
+      this.pick((this.picked || this.count) + steps[event.key]);
     });
     this.read();
   }
@@ -38,29 +41,35 @@ class CountCurve {
     this.title.textContent = `${this.model.get("unit")}, against the number of keyframes`;
     this.message.textContent = this.model.get("message");
     const counts = this.series.flatMap((s) => s.counts);
-    const [count, error] = [this.model.get("count"), this.model.get("error")];
-    const anew = count !== this.count || error !== this.error;
-    Object.assign(this, { count, error });
+    const before = this.waiting;
+    for (const name of ["count", "error", "waiting"]) this[name] = this.model.get(name);
+    if (this.picked === this.count || (before && !this.waiting)) this.picked = 0;
     this.low = Math.min(2, ...counts);
-    this.high = Math.max(3, count, ...counts);
-    this.top = Math.max(0, error ?? 0, ...this.series.flatMap((s) => s.errors)) || 1;
+    this.high = Math.max(3, this.count, ...counts);
+    this.top = Math.max(0, this.error ?? 0, ...this.series.flatMap((s) => s.errors)) || 1;
     this.canvas.setAttribute("aria-valuemin", String(this.low));
-    this.canvas.setAttribute("aria-valuemax", String(this.high));
-    // Curves arrive one by one: what is pointed at or picked meanwhile stays.
-    this.point(anew ? count : this.at);
+    this.canvas.setAttribute("aria-valuemax", String(this.model.get("most") || this.high));
+    this.show();
   }
 
   pick(count) {
-    const possible = Math.max(2, count);
-    this.point(possible);
+    const most = this.model.get("most") || Infinity;
+    const possible = Math.max(2, Math.min(most, count));
+    this.picked = possible === this.count ? 0 : possible;
+    this.show();
     this.model.set("picked", possible);
     this.model.save_changes();
   }
 
   point(count) {
-    this.at = count;
-    this.readout.textContent = count ? this.describe(count) : "";
-    this.canvas.setAttribute("aria-valuenow", String(count));
+    this.pointed = count;
+    this.show();
+  }
+
+  show() {
+    this.at = this.pointed || this.picked || this.count;
+    this.readout.textContent = this.at ? this.describe(this.at) : "";
+    this.canvas.setAttribute("aria-valuenow", String(this.at));
     this.canvas.setAttribute("aria-valuetext", this.readout.textContent);
     this.draw();
   }
