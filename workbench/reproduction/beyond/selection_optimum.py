@@ -12,14 +12,11 @@ from workbench.experiments.runs.base import Run
 from workbench.experiments.runs.schemes import Scheme, SchemeRun
 from workbench.reproduction.claims import Evidence
 from workbench.reproduction.costa2018.results import evidence_of, values_by_clip
-from workbench.reproduction.profiles import some_clips
+from workbench.reproduction.profiles import motion_clips
 from workbench.schemes import TemporalScheme
 
 #: Share of the frames that are keyframes.
 RATIO = 0.03
-
-#: On how many clips the quick profile looks for the optimum, which takes longest on long ones.
-_QUICK_CLIPS = 4
 
 OPTIMUM = "Exact"
 
@@ -60,7 +57,7 @@ def planned_runs(profile: str, seed: int = 0, *, clips: Iterable[str] | None = N
     """
     return [
         SchemeRun(clip, scheme, ratio=RATIO, seed=seed)
-        for clip in (some_clips(profile, _QUICK_CLIPS) if clips is None else clips)
+        for clip in (motion_clips(profile) if clips is None else clips)
         for scheme in SCHEMES.values()
     ]
 
