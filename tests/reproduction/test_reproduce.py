@@ -385,15 +385,17 @@ def test_a_browser_that_ends_on_the_way_is_told(tmp_path: Path):
         for process in browsers:
             if "chromium" in process.name():
                 process.kill()
+    told = notice.result()
     n_made = sum(figure.with_suffix(".png").exists() for figure in figures)
     assert 0 < n_made < 200
     words = f"{200 - n_made} of 200 PNG images are missing: the browser ended by itself"
-    assert notice.result() == words
+    assert told == words
 
 
 def test_without_a_browser_there_is_a_notice(tmp_path: Path, monkeypatch):
-    """No browser is one sentence, not an error."""
+    """No browser is one sentence, not an error, and no image of an earlier figure is left."""
     (tmp_path / "figure.json").write_text(FIGURE)
+    (tmp_path / "figure.png").write_bytes(b"of an earlier figure")
     monkeypatch.setenv("PATH", str(Path(sys.executable).parent))
     monkeypatch.setenv("BROWSER_PATH", str(tmp_path / "no-browser"))
     notice = write_pngs([tmp_path / "figure.json"])

@@ -9,7 +9,6 @@ import os
 import signal
 import subprocess
 import sys
-import time
 from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -58,7 +57,7 @@ def write_pngs(figures: Sequence[Path], *, jobs: int = 1, seconds: float | None 
     Parameters
     ----------
     figures : sequence of Path
-        Figures as JSON; the PNG is written beside each.
+        Figures as JSON; the PNG is written beside each, in place of an earlier one.
     jobs : int
         Number of pages of the browser that may render at once.
     seconds : float, optional
@@ -73,7 +72,9 @@ def write_pngs(figures: Sequence[Path], *, jobs: int = 1, seconds: float | None 
         return ""
     limit = START_SECONDS + FIGURE_SECONDS * len(figures) if seconds is None else seconds
     n_pages = max(1, min(jobs, len(figures) // _WORTH_A_PAGE, _MOST_PAGES))
-    began = time.time()
+    images = [figure.with_suffix(".png") for figure in figures]
+    for image in images:
+        image.unlink(missing_ok=True)
     process = subprocess.Popen(  # noqa: S603 - this interpreter on our own files
         [sys.executable, "-m", "workbench.reproduction.images", str(n_pages), *map(str, figures)],
         stdout=subprocess.PIPE,
@@ -93,17 +94,12 @@ def write_pngs(figures: Sequence[Path], *, jobs: int = 1, seconds: float | None 
         else:
             lines = complaint.strip().splitlines()
             reason = lines[-1] if lines else f"exit status {process.returncode}"
-    missing = [figure for figure in figures if not _is_made(figure.with_suffix(".png"), began)]
-    if not missing:
+    n_missing = sum(not image.exists() for image in images)
+    if not n_missing:
         return ""
-    if len(missing) == len(figures):
+    if n_missing == len(images):
         return f"No PNG images: {reason}"
-    return f"{len(missing)} of {len(figures)} PNG images are missing: {reason}"
-
-
-def _is_made(image: Path, began: float) -> bool:
-    # Times of files are coarser than the clock on some systems.
-    return image.exists() and image.stat().st_mtime >= began - 2.0
+    return f"{n_missing} of {len(images)} PNG images are missing: {reason}"
 
 
 def _end(process: subprocess.Popen[str]) -> None:

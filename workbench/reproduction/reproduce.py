@@ -291,9 +291,5 @@ def _write_images(folder: Path, jobs: int, progress: Callable[[str], None]) -> l
     notice = write_pngs(stale, jobs=effective_n_jobs(jobs))
     if not notice:
         return []
-    for figure in stale:
-        image = figure.with_suffix(".png")
-        if image.exists() and image.stat().st_mtime < figure.stat().st_mtime:
-            image.unlink()
     progress(f"  {notice}")
     return [notice]
