@@ -102,3 +102,25 @@ def answer(page: Any, **traits: Any) -> None:
             for name, value in traits.items()
         },
     )
+
+
+def shown_angle(page: Any) -> float:
+    """Degrees about z by which the middle joint of the shown pose is turned."""
+    turned = page.evaluate(f"[...{PAD}.scene.poseAt({PAD}.place).rotations]")
+    return float(np.degrees(np.arctan2(turned[9 + 3], turned[9])))
+
+
+def play_for(page: Any, seconds: float) -> None:
+    """Let time pass on the pad's own clock, in pictures of 20 ms."""
+    page.evaluate(
+        f"""(seconds) => {{
+          const pad = {PAD};
+          pad.play(true);
+          for (let ms = 0; ms <= Math.round(seconds * 1000) && pad.playing; ms += 20) {{
+            cancelAnimationFrame(pad.request);
+            pad.tick(1e6 + ms);
+          }}
+          cancelAnimationFrame(pad.request);
+        }}""",
+        seconds,
+    )

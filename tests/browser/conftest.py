@@ -51,6 +51,12 @@ def visit(browser: Any) -> Iterator[Visit]:
         assert visit.complaints == []
 
 
+@pytest.fixture
+def calm(visit: Visit) -> None:
+    """Let nothing glide: what Python sends is shown at once."""
+    visit.page.emulate_media(reduced_motion="reduce")
+
+
 _MOUNT = """
 async ({esm, css, state, width}) => {
   const style = document.createElement("style");
